@@ -1,0 +1,230 @@
+// Semantics: what the fields of a shader's structs mean. A field's type names its meaning and its value's type:
+//
+//     struct Interpolators { SV_POSITION position; TEXCOORD<0, float4> uv; TEXCOORD<1, float3> normal; };
+//
+// A field is used like its value. There is no list of fields to keep beside the struct: forEachField() walks a struct as
+// it is written.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "hlsl/types.h"
+
+namespace relief {
+
+// How a value gets from the vertices to a pixel.
+enum class Interpolation { perspective, affine };
+
+// A value with a meaning. `Meaning` is the semantic's tag, `T` one of Float, float2, float3, float4.
+template <class Meaning, class T>
+struct Semantic : T
+{
+    using Value = T;
+    static constexpr const char* kName = Meaning::kName;
+    static constexpr int kIndex = Meaning::kIndex;
+    static constexpr bool kIsPosition = Meaning::kIsPosition;
+    static constexpr Interpolation kInterpolation = Meaning::kInterpolation;
+
+    Semantic() = default;
+    template <class U>
+        requires std::convertible_to<U, T>
+    Semantic(const U& source) : T(source)
+    {
+    }
+};
+
+namespace semantic {
+
+struct Plain
+{
+    static constexpr int kIndex = 0;
+    static constexpr bool kIsPosition = false;
+    static constexpr Interpolation kInterpolation = Interpolation::perspective;
+};
+struct SvPosition : Plain
+{
+    static constexpr const char* kName = "SV_POSITION";
+    static constexpr bool kIsPosition = true;
+};
+struct Position : Plain
+{
+    static constexpr const char* kName = "POSITION";
+};
+struct Normal : Plain
+{
+    static constexpr const char* kName = "NORMAL";
+};
+struct Tangent : Plain
+{
+    static constexpr const char* kName = "TANGENT";
+};
+template <int index>
+struct Texcoord : Plain
+{
+    static constexpr const char* kName = "TEXCOORD";
+    static constexpr int kIndex = index;
+};
+template <int index>
+struct Color : Plain
+{
+    static constexpr const char* kName = "COLOR";
+    static constexpr int kIndex = index;
+};
+template <class Meaning>
+struct NoPerspective : Meaning
+{
+    static constexpr Interpolation kInterpolation = Interpolation::affine;
+};
+
+template <class T>
+struct Affine;
+template <class Meaning, class T>
+struct Affine<Semantic<Meaning, T>>
+{
+    using Type = Semantic<NoPerspective<Meaning>, T>;
+};
+
+}  // namespace semantic
+
+// What a vertex program takes.
+using POSITION = Semantic<semantic::Position, float4>;
+using NORMAL = Semantic<semantic::Normal, float3>;
+using TANGENT = Semantic<semantic::Tangent, float4>;  // xyz, and the binormal's sign in w
+
+// What it gives: clip space there; pixels in xy, depth in z and the interpolated w in the fragment program.
+using SV_POSITION = Semantic<semantic::SvPosition, float4>;
+
+// Both: anything, of one to four components.
+template <int index, class T>
+using TEXCOORD = Semantic<semantic::Texcoord<index>, T>;
+template <int index, class T>
+using COLOR = Semantic<semantic::Color<index>, T>;
+
+// HLSL's interpolation modifier: linear on the screen instead of in space.
+template <class S>
+using noperspective = typename semantic::Affine<S>::Type;
+
+template <class T>
+inline constexpr int kComponents = 1;
+template <int size>
+inline constexpr int kComponents<FloatN<size>> = size;
+
+template <class T>
+concept IsSemantic = requires { typename T::Value; T::kName; T::kIndex; T::kIsPosition; } &&
+                     std::is_base_of_v<typename T::Value, T>;
+
+// Component i of a value of lanes.
+inline Float& component(Float& v, int) { return v; }
+template <int size>
+Float& component(FloatN<size>& v, int i) { return v[i]; }
+
+namespace detail {
+
+struct AnySemantic
+{
+    template <IsSemantic T>
+    operator T() const;
+};
+
+struct Anything
+{
+    template <class T>
+    operator T() const;
+};
+
+template <std::size_t>
+using Any = AnySemantic;
+
+// Whether braces with one semantic for each i, and then `Rest`, make a T.
+template <class T, class... Rest, std::size_t... i>
+constexpr bool takes(std::index_sequence<i...>)
+{
+    return requires { T{Any<i>{}..., Rest{}...}; };
+}
+
+inline constexpr int kMaxFields = 12;
+
+}  // namespace detail
+
+// The number of fields of a struct whose fields are all semantics (at most 12); -1 for anything else.
+template <class T, int n = detail::kMaxFields>
+constexpr int fieldCount()
+{
+    if constexpr (!std::is_aggregate_v<T> || n < 0) {
+        return -1;
+    } else {
+        using Fields = std::make_index_sequence<static_cast<std::size_t>(n)>;
+        if constexpr (!detail::takes<T>(Fields{})) {
+            return fieldCount<T, n - 1>();
+        } else {
+            return detail::takes<T, detail::Anything>(Fields{}) ? -1 : n;  // one more field, of another type
+        }
+    }
+}
+
+// Calls function(fields...) with all fields of a struct, in order, and returns what it returns.
+template <class Struct, class Function>
+constexpr decltype(auto) withFields(Struct& s, Function&& function)
+{
+    constexpr int n = fieldCount<std::remove_const_t<Struct>>();
+    static_assert(n >= 0, "every field of a shader's struct must be a semantic such as TEXCOORD<0, float4>");
+    // clang-format off
+    if constexpr (n == 0) { return function(); }
+    if constexpr (n == 1) { auto& [a] = s; return function(a); }
+    if constexpr (n == 2) { auto& [a, b] = s; return function(a, b); }
+    if constexpr (n == 3) { auto& [a, b, c] = s; return function(a, b, c); }
+    if constexpr (n == 4) { auto& [a, b, c, d] = s; return function(a, b, c, d); }
+    if constexpr (n == 5) { auto& [a, b, c, d, e] = s; return function(a, b, c, d, e); }
+    if constexpr (n == 6) { auto& [a, b, c, d, e, f] = s; return function(a, b, c, d, e, f); }
+    if constexpr (n == 7) { auto& [a, b, c, d, e, f, g] = s; return function(a, b, c, d, e, f, g); }
+    if constexpr (n == 8) { auto& [a, b, c, d, e, f, g, h] = s; return function(a, b, c, d, e, f, g, h); }
+    if constexpr (n == 9) { auto& [a, b, c, d, e, f, g, h, i] = s; return function(a, b, c, d, e, f, g, h, i); }
+    if constexpr (n == 10) { auto& [a, b, c, d, e, f, g, h, i, j] = s; return function(a, b, c, d, e, f, g, h, i, j); }
+    if constexpr (n == 11) { auto& [a, b, c, d, e, f, g, h, i, j, k] = s; return function(a, b, c, d, e, f, g, h, i, j, k); }
+    if constexpr (n == 12) { auto& [a, b, c, d, e, f, g, h, i, j, k, l] = s; return function(a, b, c, d, e, f, g, h, i, j, k, l); }
+    // clang-format on
+}
+
+// Calls function(field) for every field of a struct, in order.
+template <class Struct, class Function>
+constexpr void forEachField(Struct& s, Function&& function)
+{
+    withFields(s, [&function](auto&... field) { (function(field), ...); });
+}
+
+// The types of a struct's fields.
+template <class... Field>
+struct FieldList
+{
+};
+
+namespace detail {
+
+struct ListFields
+{
+    template <class... Field>
+    FieldList<std::remove_cv_t<Field>...> operator()(Field&...) const;
+};
+
+}  // namespace detail
+
+template <class Struct>
+using FieldsOf = decltype(withFields(std::declval<Struct&>(), detail::ListFields{}));
+
+// The components (floats) of a list of fields that are to be interpolated: all but SV_POSITION's.
+template <class... Field>
+constexpr int interpolatedComponents(FieldList<Field...>)
+{
+    return (0 + ... + (Field::kIsPosition ? 0 : kComponents<typename Field::Value>));
+}
+
+// What a vertex program may give and a fragment program takes: semantics only, and one SV_POSITION among them.
+template <class... Field>
+constexpr int positionCount(FieldList<Field...>)
+{
+    return (0 + ... + (Field::kIsPosition ? 1 : 0));
+}
+
+}  // namespace relief

@@ -1,0 +1,45 @@
+// Mask: one yes or no for every pixel of a block: what a comparison of lanes gives, and what select() chooses by.
+// There is no conversion to bool, on purpose: ask any(), all() or none().
+#pragma once
+
+#include <bit>
+
+#include "lanes/native.h"
+
+namespace relief {
+
+class Mask
+{
+public:
+    Mask() = default;
+    Mask(bool all) : value(native::maskFromBits(all ? kAllLanes : 0u)) {}
+    explicit Mask(native::MaskVector native) : value(native) {}
+
+    // Lane i from bit i; and back.
+    static Mask fromBits(unsigned bits) { return Mask(native::maskFromBits(bits)); }
+    unsigned bits() const { return native::maskBits(value) & kAllLanes; }
+    bool operator[](int lane) const { return (bits() >> lane & 1u) != 0; }
+
+    friend Mask operator&(Mask a, Mask b) { return Mask(native::maskAnd(a.value, b.value)); }
+    friend Mask operator|(Mask a, Mask b) { return Mask(native::maskOr(a.value, b.value)); }
+    friend Mask operator!(Mask a) { return Mask(native::maskNot(a.value)); }
+    Mask& operator&=(Mask other) { return *this = *this & other; }
+    Mask& operator|=(Mask other) { return *this = *this | other; }
+
+    native::MaskVector value;
+};
+
+inline bool any(Mask m) { return m.bits() != 0; }
+inline bool all(Mask m) { return m.bits() == kAllLanes; }
+inline bool none(Mask m) { return m.bits() == 0; }
+inline int count(Mask m) { return std::popcount(m.bits()); }
+
+// The quads of which at least one pixel is set, whole: the pixels that must be computed for derivatives to exist.
+constexpr unsigned wholeQuads(unsigned bits)
+{
+    unsigned quads = (bits | bits >> 1) & 0x5555u;
+    quads = (quads | quads >> 2) & 0x1111u;
+    return quads * 0xfu;
+}
+
+}  // namespace relief

@@ -1,0 +1,112 @@
+// 4 lanes on plain x86-64 (SSE2). A mask is a vector of 0 and -1.
+#pragma once
+
+#include <emmintrin.h>
+
+#include "lanes/native.h"
+
+namespace relief::native {
+
+typedef IntVector MaskVector;
+
+inline __m128 wrap(FloatVector a) { return (__m128)a; }
+inline __m128i wrap(IntVector a) { return (__m128i)a; }
+
+inline MaskVector less(FloatVector a, FloatVector b) { return (MaskVector)_mm_cmplt_ps(wrap(a), wrap(b)); }
+inline MaskVector lessEqual(FloatVector a, FloatVector b) { return (MaskVector)_mm_cmple_ps(wrap(a), wrap(b)); }
+inline MaskVector equal(FloatVector a, FloatVector b) { return (MaskVector)_mm_cmpeq_ps(wrap(a), wrap(b)); }
+inline MaskVector less(IntVector a, IntVector b) { return (MaskVector)_mm_cmplt_epi32(wrap(a), wrap(b)); }
+inline MaskVector equal(IntVector a, IntVector b) { return (MaskVector)_mm_cmpeq_epi32(wrap(a), wrap(b)); }
+
+inline MaskVector maskAnd(MaskVector a, MaskVector b) { return a & b; }
+inline MaskVector maskOr(MaskVector a, MaskVector b) { return a | b; }
+inline MaskVector maskNot(MaskVector a) { return ~a; }
+inline unsigned signBits(IntVector a) { return static_cast<unsigned>(_mm_movemask_ps((__m128)a)); }
+inline unsigned maskBits(MaskVector a) { return signBits(a); }
+inline MaskVector maskFromBits(unsigned bits)
+{
+    const IntVector lane = {1, 2, 4, 8};
+    return equal(lane & static_cast<std::int32_t>(bits), lane);
+}
+
+inline IntVector select(MaskVector m, IntVector a, IntVector b) { return (a & m) | (b & ~m); }
+inline FloatVector select(MaskVector m, FloatVector a, FloatVector b)
+{
+    return (FloatVector)select(m, (IntVector)a, (IntVector)b);
+}
+
+inline FloatVector min(FloatVector a, FloatVector b) { return (FloatVector)_mm_min_ps(wrap(a), wrap(b)); }
+inline FloatVector max(FloatVector a, FloatVector b) { return (FloatVector)_mm_max_ps(wrap(a), wrap(b)); }
+inline IntVector min(IntVector a, IntVector b) { return select(less(a, b), a, b); }
+inline IntVector max(IntVector a, IntVector b) { return select(less(b, a), a, b); }
+inline FloatVector sqrt(FloatVector a) { return (FloatVector)_mm_sqrt_ps(wrap(a)); }
+inline IntVector roundToInt(FloatVector a) { return (IntVector)_mm_cvtps_epi32(wrap(a)); }
+inline IntVector truncateToInt(FloatVector a) { return (IntVector)_mm_cvttps_epi32(wrap(a)); }
+inline FloatVector toFloat(IntVector a) { return (FloatVector)_mm_cvtepi32_ps(wrap(a)); }
+
+// SSE2 has no rounding instruction. Beyond 2^23 every float is an integer already (and NaN stays NaN); the sign of
+// zero is kept, as the instruction of the wider sets keeps it.
+inline FloatVector floor(FloatVector a)
+{
+    const FloatVector truncated = toFloat(truncateToInt(a));
+    const FloatVector one = (FloatVector)(IntVector{0x3f800000, 0x3f800000, 0x3f800000, 0x3f800000} & less(a, truncated));
+    const IntVector sign = (IntVector)a & static_cast<std::int32_t>(0x80000000u);
+    const FloatVector floored = (FloatVector)((IntVector)(truncated - one) | sign);
+    const FloatVector magnitude = (FloatVector)((IntVector)a & 0x7fffffff);
+    return select(less(magnitude, FloatVector{} + 8388608.0f), floored, a);
+}
+
+inline DoubleVector lowToDouble(IntVector a) { return (DoubleVector)_mm_cvtepi32_pd(wrap(a)); }
+inline DoubleVector highToDouble(IntVector a)
+{
+    return (DoubleVector)_mm_cvtepi32_pd(_mm_shuffle_epi32(wrap(a), 0x4e));
+}
+inline FloatVector toFloat(DoubleVector low, DoubleVector high)
+{
+    return (FloatVector)_mm_movelh_ps(_mm_cvtpd_ps((__m128d)low), _mm_cvtpd_ps((__m128d)high));
+}
+inline unsigned negativeBits(DoubleVector low, DoubleVector high)
+{
+    const __m128d zero = _mm_setzero_pd();
+    return static_cast<unsigned>(_mm_movemask_pd(_mm_cmplt_pd((__m128d)low, zero)) |
+                                 _mm_movemask_pd(_mm_cmplt_pd((__m128d)high, zero)) << 2);
+}
+
+// Rearranges every quad: lane k of the quad becomes its lane a<k>.
+template <int a0, int a1, int a2, int a3>
+inline FloatVector permuteQuad(FloatVector a)
+{
+    return (FloatVector)_mm_shuffle_ps(wrap(a), wrap(a), a0 | a1 << 2 | a2 << 4 | a3 << 6);
+}
+
+// out[k] lane i = the k-th 32-bit word at address[i]; 16 bytes are read per lane.
+inline void loadTransposed(const std::byte* const address[4], IntVector out[4])
+{
+    const __m128i r0 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(address[0]));
+    const __m128i r1 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(address[1]));
+    const __m128i r2 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(address[2]));
+    const __m128i r3 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(address[3]));
+    const __m128i t0 = _mm_unpacklo_epi32(r0, r1), t1 = _mm_unpacklo_epi32(r2, r3);
+    const __m128i t2 = _mm_unpackhi_epi32(r0, r1), t3 = _mm_unpackhi_epi32(r2, r3);
+    out[0] = (IntVector)_mm_unpacklo_epi64(t0, t1);
+    out[1] = (IntVector)_mm_unpackhi_epi64(t0, t1);
+    out[2] = (IntVector)_mm_unpacklo_epi64(t2, t3);
+    out[3] = (IntVector)_mm_unpackhi_epi64(t2, t3);
+}
+
+inline __m128i loadTwoHalves(const std::byte* low, const std::byte* high)
+{
+    const __m128i l = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(low));
+    return _mm_castps_si128(_mm_loadh_pi(_mm_castsi128_ps(l), reinterpret_cast<const __m64*>(high)));
+}
+
+// out[k] lane i = the k-th 32-bit word at address[i]; 8 bytes are read per lane.
+inline void loadTransposedPair(const std::byte* const address[4], IntVector out[2])
+{
+    const __m128 r0 = _mm_castsi128_ps(loadTwoHalves(address[0], address[1]));
+    const __m128 r1 = _mm_castsi128_ps(loadTwoHalves(address[2], address[3]));
+    out[0] = (IntVector)_mm_shuffle_ps(r0, r1, 0x88);
+    out[1] = (IntVector)_mm_shuffle_ps(r0, r1, 0xdd);
+}
+
+}  // namespace relief::native

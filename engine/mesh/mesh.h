@@ -1,0 +1,38 @@
+// A triangle mesh: what every producer (primitives.h, obj.h) hands over and every draw consumes. Object space,
+// left-handed, Y up; front faces are clockwise seen from the front, as in Unity, so that for a triangle a, b, c
+// the vector cross(b - a, c - a) points out of the front. Plain floats: lanes begin where vertices are shaded.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "error.h"
+
+namespace relief {
+
+struct Mesh
+{
+    std::string name;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;   // as many as positions, unit length
+    std::vector<glm::vec2> uvs;       // as many as positions or none; (0,0) is the picture's lower left
+    std::vector<glm::vec4> tangents;  // as many as positions or none; xyz along +u, w the binormal's handedness sign:
+                                      // cross(normal, tangent.xyz) * tangent.w points along +v
+    std::vector<std::uint32_t> indices;  // three per triangle
+};
+
+// Fails, naming the first thing that is wrong, unless the lengths agree, there are whole triangles, every index names a
+// position and every number is finite. A mesh without any triangle is valid.
+Expected<void> validate(const Mesh& mesh);
+
+// Replaces the normals by smooth ones: the sum of the normals of the triangles around each vertex, weighted by their
+// area. Straight up (+Y) where that sum is zero, so that every normal has unit length. The mesh's positions and indices
+// must be valid.
+void computeNormals(Mesh& mesh);
+
+}  // namespace relief

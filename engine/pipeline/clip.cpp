@@ -1,0 +1,79 @@
+#include "pipeline/clip.h"
+
+#include <algorithm>
+
+#include "pipeline/limits.h"
+
+namespace relief {
+
+namespace {
+
+enum class Plane { smallW, near, far, left, right, bottom, top };
+
+// Signed distance to a plane, positive inside. In double: a product of two floats is exact there, so the sign is right.
+double distance(Plane plane, const glm::vec4& p, const ClipLimits& limits)
+{
+    switch (plane) {
+        case Plane::smallW: return static_cast<double>(p.w) - static_cast<double>(kSmallestW);
+        case Plane::near: return p.z;
+        case Plane::far: return static_cast<double>(p.w) - static_cast<double>(p.z);
+        case Plane::left: return static_cast<double>(p.w) + static_cast<double>(p.x) * limits.inverseGuardX;
+        case Plane::right: return static_cast<double>(p.w) - static_cast<double>(p.x) * limits.inverseGuardX;
+        case Plane::bottom: return static_cast<double>(p.w) + static_cast<double>(p.y) * limits.inverseGuardY;
+        case Plane::top: return static_cast<double>(p.w) - static_cast<double>(p.y) * limits.inverseGuardY;
+    }
+    return 0.0;
+}
+
+// a + t (b - a), rounded once, and never beyond the two ends.
+float between(float a, float b, double t)
+{
+    const double value = static_cast<double>(a) + t * (static_cast<double>(b) - static_cast<double>(a));
+    return std::clamp(static_cast<float>(value), std::min(a, b), std::max(a, b));
+}
+
+// The point where the edge leaves the plane; t is in [0, 1] because the distances have strictly different signs.
+ClipVertex cut(const ClipVertex& inside, double insideDistance, const ClipVertex& outside, double outsideDistance)
+{
+    const double t = std::clamp(insideDistance / (insideDistance - outsideDistance), 0.0, 1.0);
+    ClipVertex v;
+    for (int i = 0; i < 4; ++i) v.position[i] = between(inside.position[i], outside.position[i], t);
+    for (int k = 0; k < 3; ++k) v.weight[k] = between(inside.weight[k], outside.weight[k], t);
+    return v;
+}
+
+}  // namespace
+
+int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span<ClipVertex, kMaxClippedVertices> out)
+{
+    ClipVertex buffers[2][kMaxClippedVertices];
+    ClipVertex* polygon = buffers[0];
+    ClipVertex* next = buffers[1];
+    for (int k = 0; k < 3; ++k) {
+        polygon[k] = {corners[k], {0.0f, 0.0f, 0.0f}};
+        polygon[k].weight[k] = 1.0f;
+    }
+
+    int count = 3;
+    for (const Plane plane :
+         {Plane::smallW, Plane::near, Plane::far, Plane::left, Plane::right, Plane::bottom, Plane::top}) {
+        if (!limits.depthClip && (plane == Plane::near || plane == Plane::far)) continue;
+        int kept = 0;
+        for (int i = 0; i < count; ++i) {
+            const ClipVertex& a = polygon[i];
+            const ClipVertex& b = polygon[(i + 1) % count];
+            const double da = distance(plane, a.position, limits);
+            const double db = distance(plane, b.position, limits);
+            if (da >= 0.0) next[kept++] = a;
+            if (da > 0.0 && db < 0.0) next[kept++] = cut(a, da, b, db);
+            if (da < 0.0 && db > 0.0) next[kept++] = cut(b, db, a, da);
+        }
+        std::swap(polygon, next);
+        count = kept;
+        if (count < 3) return 0;
+    }
+    std::copy_n(polygon, count, out.begin());
+    return count;
+}
+
+}  // namespace relief

@@ -1,0 +1,60 @@
+// The edge function: twice the signed area of the triangle (a, b, p), in 1/65536 px^2; positive where p is on the inner
+// side of an edge a -> b of a clockwise triangle (y down).
+//
+//     E(p) = (b.x - a.x) (p.y - a.y) - (b.y - a.y) (p.x - a.x)
+//
+// All coordinates are integers (24.8 fixed point), so E is one too, and every sign is exact.
+#pragma once
+
+#include <cstdint>
+
+#include "pipeline/geometry.h"
+
+namespace relief {
+
+struct EdgeFunction
+{
+    std::int32_t stepX, stepY;  // E changes by 256 * step from one pixel to the next
+    std::int64_t origin;        // E at the centre of pixel (0, 0)
+
+    EdgeFunction() = default;
+    EdgeFunction(std::int32_t ax, std::int32_t ay, std::int32_t bx, std::int32_t by)
+        : stepX(ay - by),
+          stepY(bx - ax),
+          origin(static_cast<std::int64_t>(stepY) * (kSubpixels / 2 - ay) +
+                 static_cast<std::int64_t>(stepX) * (kSubpixels / 2 - ax))
+    {
+    }
+
+    // The top-left rule: a pixel centre that lies on an edge belongs to the triangle whose top (horizontal, above the
+    // others) or left edge it is (D3D 11.3, 3.4.2.1). For all other edges E = 0 is outside.
+    bool isTopLeft() const { return stepX > 0 || (stepX == 0 && stepY > 0); }
+
+    // floor(E / 256), lowered by one unit of E unless the edge is top-left, at the centre of pixel (x, y):
+    // not negative exactly where the pixel is inside, because whole pixels change E by multiples of 256.
+    std::int64_t coverage(int x, int y) const
+    {
+        const std::int64_t biased = origin - (isTopLeft() ? 0 : 1);
+        return (biased >> kSubpixelBits) + static_cast<std::int64_t>(stepX) * x + static_cast<std::int64_t>(stepY) * y;
+    }
+};
+
+// Edge k lies opposite corner k: E_k / area is the barycentric weight of that corner.
+inline EdgeFunction edgeOf(const Triangle& t, int k)
+{
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    return {t.x[a], t.y[a], t.x[b], t.y[b]};
+}
+
+// The pixels whose centres lie within the triangle's bounds, clipped.
+inline Rectangle sampleBounds(const Triangle& t, const Rectangle& clip)
+{
+    const auto low = [](const std::int32_t v[3]) { return v[0] < v[1] ? (v[0] < v[2] ? v[0] : v[2]) : (v[1] < v[2] ? v[1] : v[2]); };
+    const auto high = [](const std::int32_t v[3]) { return v[0] > v[1] ? (v[0] > v[2] ? v[0] : v[2]) : (v[1] > v[2] ? v[1] : v[2]); };
+    const int half = kSubpixels / 2;
+    return intersect({(low(t.x) + half - 1) >> kSubpixelBits, (low(t.y) + half - 1) >> kSubpixelBits,
+                      ((high(t.x) - half) >> kSubpixelBits) + 1, ((high(t.y) - half) >> kSubpixelBits) + 1},
+                     clip);
+}
+
+}  // namespace relief

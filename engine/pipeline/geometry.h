@@ -1,0 +1,136 @@
+// What the front end of the pipeline passes on: from shaded vertices (clip space and screen) to triangles that are ready
+// to be binned.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "pipeline/limits.h"
+#include "pipeline/render_state.h"
+
+namespace relief {
+
+// An array that is grown but never filled: what a frame writes before it reads, and the next frame reuses.
+template <class T>
+class Scratch
+{
+public:
+    T* reserve(std::size_t count)
+    {
+        if (count > capacity) {
+            data = std::make_unique_for_overwrite<T[]>(count);
+            capacity = count;
+        }
+        return data.get();
+    }
+    T* get() const { return data.get(); }
+
+private:
+    std::unique_ptr<T[]> data;
+    std::size_t capacity = 0;
+};
+
+// Pixels [x0, x1) x [y0, y1).
+struct Rectangle
+{
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+inline Rectangle intersect(const Rectangle& a, const Rectangle& b)
+{
+    return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1, a.y1 < b.y1 ? a.y1 : b.y1};
+}
+
+// Where normalised device coordinates land: pixels; depth 0 ... 1 is not remapped.
+struct Viewport
+{
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+// A vertex after clip space, division and viewport. Meaningless where its codes say that the triangle must be clipped.
+struct ScreenVertex
+{
+    std::int32_t x, y;  // 24.8 fixed point
+    float z;            // 0 ... 1
+    float invW;         // 1 / clip-space w
+};
+
+// On which side of what a clip-space position lies. A triangle with one `outside` bit in all three codes is invisible;
+// one with a `mustClip` bit in any code has to be clipped.
+namespace vertex_code {
+enum : std::uint16_t
+{
+    outsideLeft = 1, outsideRight = 2, outsideBottom = 4, outsideTop = 8, outsideNear = 16, outsideFar = 32,
+    anyOutside = 63,
+    beyondGuardBand = 64, smallW = 128,
+    mustClip = outsideNear | outsideFar | beyondGuardBand | smallW,
+    nan = 256, infinite = 512,
+};
+}
+
+// One draw's vertices and the state that the front end needs.
+struct DrawGeometry
+{
+    const std::uint32_t* indices = nullptr;  // three a triangle
+    std::uint32_t triangleCount = 0;
+    std::uint32_t vertexCount = 0;
+    std::uint32_t componentCount = 0;  // floats to interpolate per vertex
+
+    glm::vec4* clip = nullptr;              // per vertex
+    ScreenVertex* screen = nullptr;         // per vertex
+    std::uint16_t* codes = nullptr;         // per vertex
+    float* components = nullptr;            // componentCount per vertex
+
+    Viewport viewport;
+    Rectangle bounds;  // viewport, scissor and target: no pixel outside is touched
+    Cull cull = Cull::back;
+    bool depthClip = true;
+    std::uint32_t drawIndex = 0;
+};
+
+// A triangle ready for rasterisation: clockwise on screen, area > 0. One cache line.
+struct alignas(64) Triangle
+{
+    std::int32_t x[3], y[3];  // 24.8 fixed point
+    float z[3];
+    float invW[3];
+    std::uint32_t vertex[3];  // see componentsOf()
+    std::uint32_t drawIndex;
+};
+
+inline constexpr std::uint32_t kClippedVertex = 0x80000000u;
+
+// The front end's output for one run of consecutive triangles: the triangles that survived, and which tiles they touch.
+struct TriangleChunk
+{
+    struct BinEntry
+    {
+        std::uint32_t tile;
+        std::uint32_t triangle;
+    };
+
+    std::vector<Triangle> triangles;
+    std::vector<float> clippedComponents;    // of vertices that clipping made
+    std::vector<BinEntry> entries;           // in submission order
+    std::vector<std::uint32_t> binStart;     // tile t's triangles are sorted[binStart[t]] ... sorted[binStart[t + 1] - 1]
+    std::vector<std::uint32_t> sorted;       // indices into `triangles`, by tile, then in submission order
+
+    void clear()
+    {
+        triangles.clear();
+        clippedComponents.clear();
+        entries.clear();
+    }
+};
+
+// The interpolated components of a triangle's corner: of an original vertex, or of one that clipping made.
+inline const float* componentsOf(const DrawGeometry& draw, const TriangleChunk& chunk, std::uint32_t vertex)
+{
+    if ((vertex & kClippedVertex) != 0) return chunk.clippedComponents.data() + (vertex & ~kClippedVertex);
+    return draw.components + static_cast<std::size_t>(vertex) * draw.componentCount;
+}
+
+}  // namespace relief

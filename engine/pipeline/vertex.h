@@ -1,0 +1,87 @@
+// The vertex stage: runs a vertex program on kLanes vertices at a time. Enters: a mesh's streams. Leaves: clip-space
+// positions, their screen positions and codes, and the components to interpolate, vertex after vertex.
+#pragma once
+
+#include <algorithm>
+
+#include "hlsl/semantics.h"
+#include "mesh/mesh.h"
+#include "pipeline/geometry.h"
+
+namespace relief {
+
+// The screen side of `count` <= kLanes vertices that start at `first`: draw.screen and draw.codes from clip positions.
+void projectVertices(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, const float4& clip);
+
+// Whether a mesh has a stream for a semantic, and for all of them.
+template <class Field>
+inline constexpr bool kMeshHas = std::is_same_v<Field, POSITION> || std::is_same_v<Field, NORMAL> ||
+                                 std::is_same_v<Field, TANGENT> ||
+                                 std::is_same_v<Field, TEXCOORD<0, typename Field::Value>>;
+template <class... Field>
+constexpr bool meshHasAll(FieldList<Field...>)
+{
+    return (true && ... && kMeshHas<Field>);
+}
+
+namespace detail {
+
+// Reads one semantic of up to kLanes vertices. A stream that the mesh does not have reads as zeros.
+template <class Field>
+void fetch(const Mesh& mesh, std::uint32_t first, std::uint32_t count, Field& field)
+{
+    static_assert(kMeshHas<Field>);
+    constexpr int components = kComponents<typename Field::Value>;
+    float lanes[components][kLanes] = {};
+    const auto read = [&](const auto& stream) {
+        constexpr int streamComponents = static_cast<int>(sizeof stream[0] / sizeof(float));
+        if (stream.empty()) return;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            for (int c = 0; c < std::min(components, streamComponents); ++c) lanes[c][i] = stream[first + i][c];
+        }
+    };
+    if constexpr (std::is_same_v<Field, POSITION>) {
+        std::fill_n(lanes[3], kLanes, 1.0f);
+        read(mesh.positions);
+    } else if constexpr (std::is_same_v<Field, NORMAL>) {
+        read(mesh.normals);
+    } else if constexpr (std::is_same_v<Field, TANGENT>) {
+        read(mesh.tangents);
+    } else {
+        read(mesh.uvs);
+    }
+    for (int c = 0; c < components; ++c) component(static_cast<typename Field::Value&>(field), c) = Float::load(lanes[c]);
+}
+
+}  // namespace detail
+
+// Shades vertices first ... first + count - 1 of the draw's mesh.
+template <class VertexData, class VertexProgram>
+void shadeVertices(const VertexProgram& program, const Mesh& mesh, const DrawGeometry& draw, std::uint32_t first,
+                   std::uint32_t count)
+{
+    for (std::uint32_t begin = first; begin < first + count; begin += kLanes) {
+        const std::uint32_t n = std::min<std::uint32_t>(kLanes, first + count - begin);
+        VertexData vertex;
+        forEachField(vertex, [&](auto& field) { detail::fetch(mesh, begin, n, field); });
+
+        auto interpolators = program(vertex);
+
+        // From one value per lane to one vertex after the other, which is how triangles will ask for them.
+        int slot = 0;
+        forEachField(interpolators, [&]<class Field>(Field& field) {
+            if constexpr (Field::kIsPosition) {
+                projectVertices(draw, begin, n, field);
+            } else {
+                for (int c = 0; c < kComponents<typename Field::Value>; ++c, ++slot) {
+                    float lanes[kLanes];
+                    component(static_cast<typename Field::Value&>(field), c).store(lanes);
+                    float* out = draw.components + static_cast<std::size_t>(begin) * draw.componentCount + slot;
+                    for (std::uint32_t i = 0; i < n; ++i) out[i * draw.componentCount] = lanes[i];
+                }
+            }
+        });
+    }
+}
+
+}  // namespace relief

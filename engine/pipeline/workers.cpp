@@ -1,0 +1,131 @@
+#include "pipeline/workers.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "lanes/environment.h"
+
+#if !defined(RELIEF_NO_THREADS)
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#endif
+
+namespace relief {
+
+#if defined(RELIEF_NO_THREADS)
+
+struct Workers::Pool
+{
+};
+
+Workers::Workers(int) {}
+int Workers::count() const { return 1; }
+
+void Workers::run(int tasks, Job job)
+{
+    const DefaultFloatingPoint environment;
+    for (int task = 0; task < tasks; ++task) job.call(job.context, task, 0);
+}
+
+#else
+
+struct Workers::Pool
+{
+    std::mutex mutex;
+    std::condition_variable wake;
+    std::condition_variable done;
+    std::uint64_t generation = 0;  // of the job; a change wakes the workers
+    int busy = 0;                  // workers that have not finished this job
+    bool stop = false;
+
+    Job job{};
+    int tasks = 0;
+    std::atomic<int> next{0};
+
+    std::vector<std::thread> threads;
+
+    void work(int worker)
+    {
+        const DefaultFloatingPoint environment;
+        for (;;) {
+            const int task = next.fetch_add(1, std::memory_order_relaxed);
+            if (task >= tasks) return;
+            job.call(job.context, task, worker);
+        }
+    }
+
+    void loop(int worker)
+    {
+        std::uint64_t seen = 0;
+        for (;;) {
+            {
+                std::unique_lock lock(mutex);
+                wake.wait(lock, [&] { return stop || generation != seen; });
+                if (stop) return;
+                seen = generation;
+            }
+            work(worker);
+            const std::scoped_lock lock(mutex);
+            if (--busy == 0) done.notify_one();
+        }
+    }
+};
+
+Workers::Workers(int threads) : pool(std::make_unique<Pool>())
+{
+    if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    for (int worker = 1; worker < threads; ++worker) {
+        pool->threads.emplace_back([p = pool.get(), worker] { p->loop(worker); });
+    }
+}
+
+int Workers::count() const { return static_cast<int>(pool->threads.size()) + 1; }
+
+void Workers::run(int tasks, Job job)
+{
+    Pool& p = *pool;
+    if (tasks <= 0) return;
+    p.job = job;
+    p.tasks = tasks;
+    p.next.store(0, std::memory_order_relaxed);
+    if (tasks == 1 || p.threads.empty()) {
+        p.work(0);
+        return;
+    }
+    {
+        const std::scoped_lock lock(p.mutex);
+        p.busy = static_cast<int>(p.threads.size());
+        ++p.generation;
+    }
+    p.wake.notify_all();
+    p.work(0);
+    std::unique_lock lock(p.mutex);
+    p.done.wait(lock, [&] { return p.busy == 0; });
+}
+
+#endif
+
+Workers::~Workers()
+{
+#if !defined(RELIEF_NO_THREADS)
+    if (pool == nullptr) return;
+    {
+        const std::scoped_lock lock(pool->mutex);
+        pool->stop = true;
+    }
+    pool->wake.notify_all();
+    for (std::thread& thread : pool->threads) thread.join();
+#endif
+}
+
+Workers::Workers(Workers&&) noexcept = default;
+Workers& Workers::operator=(Workers&& other) noexcept
+{
+    std::swap(pool, other.pool);
+    return *this;
+}
+
+}  // namespace relief

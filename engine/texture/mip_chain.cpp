@@ -1,0 +1,159 @@
+// Mip levels by area averages: what one coarse texel covers, the sum over it, and the frame around the result.
+#include "texture/mip_chain.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <type_traits>
+
+namespace relief {
+namespace {
+
+constexpr int kCacheLine = 64;  // bytes
+
+int paddedRowTexels(TexelFormat format, int width)
+{
+    const int bytes = (width + 2) * bytesPerTexel(format);
+    const int linesNeeded = (bytes + kCacheLine - 1) / kCacheLine;
+    return (linesNeeded | 1) * kCacheLine / bytesPerTexel(format);
+}
+
+// The fine texels first .. first + count - 1 that one coarse texel covers along one axis, and by how much.
+struct Coverage
+{
+    int first = 0;
+    int count = 1;
+    std::array<std::uint32_t, 3> weights = {1, 0, 0};
+    std::uint32_t total = 1;
+};
+
+// Coarse texel i of m covers the fine interval [i n/m, (i + 1) n/m) of n texels. For n = 2m that is two whole texels.
+// For n = 2m + 1 it is [2i + i/m, 2i + 2 + (i + 1)/m): parts of three texels, in units of 1/m.
+Coverage coverage(int fineSide, int i)
+{
+    if (fineSide == 1) return {};
+    if (fineSide % 2 == 0) return {2 * i, 2, {1, 1, 0}, 2};
+    const auto m = static_cast<std::uint32_t>(fineSide / 2);
+    const auto part = static_cast<std::uint32_t>(i);
+    return {2 * i, 3, {m - part, m, part + 1}, 2 * m + 1};
+}
+
+// Exact for every size: 16 bits of texel and 2 * 14 bits of weight fit 64-bit integers. A double holds the 24 bits of
+// a float times 28 bits of weight, so that equal texels give themselves.
+template <class Channel>
+using Sum = std::conditional_t<std::is_floating_point_v<Channel>, double, std::uint64_t>;
+
+template <class Channel>
+Channel average(Sum<Channel> sum, Sum<Channel> total)
+{
+    if constexpr (std::is_floating_point_v<Channel>)
+        return static_cast<Channel>(sum / total);
+    else
+        return static_cast<Channel>((2 * sum + total) / (2 * total));
+}
+
+template <class Channel>
+void averageArea(const MipLevel& fine, const Coverage& across, const Coverage& along, Channel* coarse)
+{
+    std::array<Sum<Channel>, 4> sum{};
+    for (int y = 0; y < along.count; ++y) {
+        for (int x = 0; x < across.count; ++x) {
+            const Channel* texel = fine.texel<Channel>(across.first + x, along.first + y);
+            const auto weight = static_cast<Sum<Channel>>(across.weights[static_cast<std::size_t>(x)]) *
+                                along.weights[static_cast<std::size_t>(y)];
+            for (std::size_t c = 0; c < 4; ++c) sum[c] += texel[c] * weight;
+        }
+    }
+    const auto total = static_cast<Sum<Channel>>(across.total) * along.total;
+    for (std::size_t c = 0; c < 4; ++c) coarse[c] = average<Channel>(sum[c], total);
+}
+
+// One row of coarse texels where both sides are even, the usual case: the same result as averageArea, without weights.
+template <class Channel>
+void averageRowOfPairs(const Channel* lower, const Channel* upper, Channel* coarse, int width)
+{
+    for (int x = 0; x < width; ++x, lower += 8, upper += 8, coarse += 4) {
+        for (int c = 0; c < 4; ++c) {
+            if constexpr (std::is_floating_point_v<Channel>) {
+                const double sum = static_cast<double>(lower[c]) + lower[c + 4] + upper[c] + upper[c + 4];
+                coarse[c] = static_cast<Channel>(sum * 0.25);
+            } else {
+                const std::uint32_t sum = std::uint32_t{lower[c]} + lower[c + 4] + upper[c] + upper[c + 4];
+                coarse[c] = static_cast<Channel>((sum + 2) / 4);
+            }
+        }
+    }
+}
+
+template <class Channel>
+void averageLevel(const MipLevel& fine, MipLevel& coarse)
+{
+    const bool evenSides = fine.width() % 2 == 0 && fine.height() % 2 == 0;
+    for (int y = 0; y < coarse.height(); ++y) {
+        if (evenSides) {
+            averageRowOfPairs(fine.texel<Channel>(0, 2 * y), fine.texel<Channel>(0, 2 * y + 1),
+                              coarse.texel<Channel>(0, y), coarse.width());
+            continue;
+        }
+        const Coverage along = coverage(fine.height(), y);
+        for (int x = 0; x < coarse.width(); ++x) {
+            averageArea(fine, coverage(fine.width(), x), along, coarse.texel<Channel>(x, y));
+        }
+    }
+}
+
+}  // namespace
+
+int mipLevelCount(int width, int height)
+{
+    return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(width, height))));
+}
+
+MipLevel::MipLevel(TexelFormat format, int width, int height)
+    : texelBytes(static_cast<std::size_t>(bytesPerTexel(format))),
+      columns(width),
+      rows(height),
+      stride(paddedRowTexels(format, width)),
+      columnsInFloat(static_cast<float>(width)),
+      rowsInFloat(static_cast<float>(height))
+{
+    const std::size_t bytes = static_cast<std::size_t>(stride) * static_cast<std::size_t>(height + 2) * texelBytes;
+    lines.resize(bytes / kCacheLine);
+}
+
+void MipLevel::fillFrame()
+{
+    std::byte* base = lines.data()->bytes;
+    const auto copy = [&](int toX, int toY, int fromX, int fromY, std::size_t texelsToCopy) {
+        std::memcpy(base + offset(toX, toY) * texelBytes, base + offset(fromX, fromY) * texelBytes,
+                    texelsToCopy * texelBytes);
+    };
+    for (int y = 0; y < rows; ++y) {
+        copy(-1, y, columns - 1, y, 1);
+        copy(columns, y, 0, y, 1);
+    }
+    const auto framedRow = static_cast<std::size_t>(columns + 2);
+    copy(-1, -1, -1, rows - 1, framedRow);
+    copy(-1, rows, -1, 0, framedRow);
+}
+
+MipLevel coarserLevel(TexelFormat format, const MipLevel& fine)
+{
+    MipLevel coarse(format, nextSide(fine.width()), nextSide(fine.height()));
+    switch (format) {
+        case TexelFormat::rgba8:
+            averageLevel<std::uint8_t>(fine, coarse);
+            break;
+        case TexelFormat::rgba16:
+            averageLevel<std::uint16_t>(fine, coarse);
+            break;
+        case TexelFormat::rgba32Float:
+            averageLevel<float>(fine, coarse);
+            break;
+    }
+    coarse.fillFrame();
+    return coarse;
+}
+
+}  // namespace relief

@@ -1,0 +1,112 @@
+#include "commands.h"
+
+#include <charconv>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+namespace relief::samples {
+
+namespace {
+
+nlohmann::json describe(const Property& p)
+{
+    nlohmann::json value = p.value.x;
+    if (p.components > 1) {
+        value = nlohmann::json::array();
+        for (int i = 0; i < p.components; ++i) value.push_back(p.value[i]);
+    }
+    return {{"name", p.name},       {"default", value},       {"minimum", p.minimum},
+            {"maximum", p.maximum}, {"meaning", p.meaning}};
+}
+
+nlohmann::json describe(const Stage& stage)
+{
+    nlohmann::json properties = nlohmann::json::array();
+    for (const Property& p : stage.properties) properties.push_back(describe(p));
+    return {{"id", stage.id},           {"stem", stage.stem},       {"title", stage.title},
+            {"tutorial", stage.tutorial}, {"section", stage.section}, {"properties", properties}};
+}
+
+}  // namespace
+
+Expected<Size> parseSize(const std::string& text)
+{
+    const Error error = {"--size " + text + ": write WIDTHxHEIGHT, each from 1 to " + std::to_string(kMaxTargetSize) +
+                         ", such as 960x540"};
+    const char* const end = text.data() + text.size();
+    Size size{};
+    const auto [separator, widthError] = std::from_chars(text.data(), end, size.width);
+    if (widthError != std::errc() || separator == end || *separator != 'x') return tl::unexpected(error);
+    const auto [rest, heightError] = std::from_chars(separator + 1, end, size.height);
+    if (heightError != std::errc() || rest != end) return tl::unexpected(error);
+    const auto possible = [](int side) { return side >= 1 && side <= kMaxTargetSize; };
+    if (!possible(size.width) || !possible(size.height)) return tl::unexpected(error);
+    return size;
+}
+
+Expected<void> list(bool json)
+{
+    if (json) {
+        nlohmann::json all = nlohmann::json::array();
+        for (const Stage& stage : allStages()) all.push_back(describe(stage));
+        std::printf("%s\n", all.dump(2).c_str());
+        return {};
+    }
+    std::string tutorial;
+    for (const Stage& stage : allStages()) {
+        if (stage.tutorial != tutorial) std::printf("%s%s\n", tutorial.empty() ? "" : "\n", stage.tutorial.c_str());
+        tutorial = stage.tutorial;
+        std::printf("  %s  %-26s %s\n", stage.id.c_str(), stage.stem.c_str(), stage.news.c_str());
+    }
+    return {};
+}
+
+Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path)
+{
+    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, ColorFormat::rgba8Srgb);
+    if (!target) return tl::unexpected(target.error());
+    Frame frame(*target, {.threads = threads});
+    stage.record(frame, size.width, size.height);
+    const Statistics statistics = frame.run();
+    const std::span<const std::uint32_t> pixels = target->color8();
+    const Expected<void> written = writePng(path, size.width, size.height,
+                                            {reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
+    if (!written) return tl::unexpected(written.error());
+    return statistics;
+}
+
+Expected<void> render(const RenderOptions& options, const std::string& output)
+{
+    const Expected<const Stage*> stage = findStage(options.stage);
+    if (!stage) return tl::unexpected(stage.error());
+    const Expected<Size> size = parseSize(options.size);
+    if (!size) return tl::unexpected(size.error());
+    const Expected<PreparedStage> prepared = PreparedStage::prepare(**stage, options.settings, options.files);
+    if (!prepared) return tl::unexpected(prepared.error());
+    const std::string path = output.empty() ? (*stage)->stem + ".png" : output;
+    const Expected<Statistics> done = renderToFile(*prepared, *size, options.threads, path);
+    if (!done) return tl::unexpected(done.error());
+    std::printf("%s\n", path.c_str());
+    return {};
+}
+
+Expected<void> hash(const RenderOptions& options, int tileSize)
+{
+    const Expected<const Stage*> stage = findStage(options.stage);
+    if (!stage) return tl::unexpected(stage.error());
+    const Expected<Size> size = parseSize(options.size);
+    if (!size) return tl::unexpected(size.error());
+    const Expected<PreparedStage> prepared = PreparedStage::prepare(**stage, options.settings, options.files);
+    if (!prepared) return tl::unexpected(prepared.error());
+    Expected<Framebuffer> target =
+        Framebuffer::create(size->width, size->height, ColorFormat::rgba32f, DepthStorage::keep);
+    if (!target) return tl::unexpected(target.error());
+    Frame frame(*target, {.threads = options.threads, .tileSize = tileSize});
+    prepared->record(frame, size->width, size->height);
+    frame.run();
+    std::printf("%s  %s\n", hexadecimal(hashOf(*target)).c_str(), (*stage)->stem.c_str());
+    return {};
+}
+
+}  // namespace relief::samples

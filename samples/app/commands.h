@@ -1,0 +1,41 @@
+// The commands of the program, one function each. They print their results; an error comes back as one line, which main()
+// prints to stderr with exit code 2.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/render.h"
+
+namespace relief::samples {
+
+// What a stage is rendered with.
+struct RenderOptions
+{
+    std::string stage;
+    std::string size = "960x540";
+    int threads = 0;
+    std::vector<std::string> settings;
+    InputFiles files;
+};
+
+struct Size
+{
+    int width, height;
+};
+
+// "WIDTHxHEIGHT", 1 to 16384 each.
+Expected<Size> parseSize(const std::string& text);
+
+Expected<void> list(bool json);
+Expected<void> render(const RenderOptions& options, const std::string& output);
+Expected<void> hash(const RenderOptions& options, int tileSize);
+Expected<void> explain(const RenderOptions& options, bool json);
+Expected<void> gallery(const std::string& folder, int threads);
+Expected<void> view(const RenderOptions& options, int frames);
+Expected<void> bench(const std::vector<std::string>& arguments);
+
+// Renders into 8-bit sRGB colours and writes a PNG.
+Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path);
+
+}  // namespace relief::samples

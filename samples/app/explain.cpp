@@ -1,0 +1,122 @@
+// explain: what drawing a stage took, and what was left out, as counted while it ran.
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+
+namespace relief::samples {
+
+namespace {
+
+// Components (floats) that the stage's draws interpolate, and those that some pixel depends on: found by drawing the
+// picture again with one component after the other replaced by NaN.
+struct SlotUse
+{
+    int declared = 0, used = 0;
+};
+
+// Mip levels that exist in memory and that would, if every texture had its whole chain.
+struct MipUse
+{
+    int built = 0, whole = 0;
+};
+
+MipUse mipUse(const LoadedInputs& inputs)
+{
+    MipUse use;
+    for (const auto* texture : {&inputs.albedo, &inputs.height, &inputs.normal, &inputs.detail}) {
+        if (!texture->has_value()) continue;
+        use.built += (*texture)->levelsBuilt();
+        use.whole += (*texture)->levelCount();
+    }
+    return use;
+}
+
+struct Row
+{
+    const char* name;
+    std::uint64_t value;
+    std::string note;
+};
+
+std::string percent(std::uint64_t part, std::uint64_t whole)
+{
+    if (whole == 0) return "";
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.1f %%", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+    return buffer;
+}
+
+std::vector<Row> rows(const Statistics& s, const SlotUse& slots, const MipUse& mips)
+{
+    return {
+        {"passes (draws)", s.draws, ""},
+        {"vertices shaded", s.verticesShaded, ""},
+        {"triangles submitted", s.trianglesSubmitted, ""},
+        {"  culled, facing away", s.culledFacing, ""},
+        {"  culled, no pixel centre", s.culledNoSample, ""},
+        {"  outside the view", s.outside, ""},
+        {"  dropped, not a number", s.droppedNan + s.droppedInfinite + s.droppedIndex, ""},
+        {"  rasterised", s.rasterised, ""},
+        {"triangles clipped", s.trianglesClipped, "the others needed no clipping"},
+        {"triangles binned", s.trianglesBinned, "pairs of a triangle and a tile"},
+        {"tiles touched", s.tilesTouched, "of " + std::to_string(s.tiles) + "; the others were only cleared"},
+        {"blocks shaded", s.blocksShaded, "of " + std::to_string(kLanes) + " lanes"},
+        {"quads shaded", s.quadsShaded, ""},
+        {"pixels shaded", s.pixelsShaded,
+         percent(s.pixelsShaded, s.blocksShaded * kLanes) + " of the lanes that ran"},
+        {"pixels hidden", s.pixelsHidden, "failed the depth test before any shading"},
+        {"invalid colours", s.invalidColors, "NaN or infinite, replaced"},
+        {"components used", static_cast<std::uint64_t>(slots.used),
+         "of " + std::to_string(slots.declared) + " declared; no pixel depends on the others"},
+        {"texture fetches, nearest", s.fetches.nearest, ""},
+        {"texture fetches, bilinear", s.fetches.bilinear, ""},
+        {"texture fetches, trilinear", s.fetches.trilinear, ""},
+        {"texture fetches, anisotropic", s.fetches.anisotropic, ""},
+        {"mip levels built", static_cast<std::uint64_t>(mips.built), "of " + std::to_string(mips.whole)},
+    };
+}
+
+}  // namespace
+
+Expected<void> explain(const RenderOptions& options, bool json)
+{
+    const Expected<const Stage*> stage = findStage(options.stage);
+    if (!stage) return tl::unexpected(stage.error());
+    const Expected<Size> size = parseSize(options.size);
+    if (!size) return tl::unexpected(size.error());
+    const Expected<PreparedStage> prepared = PreparedStage::prepare(**stage, options.settings, options.files);
+    if (!prepared) return tl::unexpected(prepared.error());
+    Expected<Framebuffer> target = Framebuffer::create(size->width, size->height, ColorFormat::rgba32f);
+    if (!target) return tl::unexpected(target.error());
+
+    Frame frame(*target, {.threads = options.threads});
+    prepared->record(frame, size->width, size->height);
+    const Statistics statistics = frame.run();
+    const MipUse mips = mipUse(*prepared->inputs);
+
+    SlotUse slots;
+    for (int draw = 0; draw < frame.drawCount(); ++draw) {
+        slots.declared += frame.componentCount(draw);
+        for (int c = 0; c < frame.componentCount(draw); ++c) slots.used += frame.dependsOn(draw, c) ? 1 : 0;
+    }
+
+    const std::vector<Row> table = rows(statistics, slots, mips);
+    if (json) {
+        nlohmann::json all = {{"stage", (*stage)->id}, {"stem", (*stage)->stem}, {"lanes", kLanes}};
+        for (const Row& row : table) {
+            const std::string name = row.name;
+            all["counts"][name.substr(name.find_first_not_of(' '))] = row.value;
+        }
+        std::printf("%s\n", all.dump(2).c_str());
+        return {};
+    }
+    std::printf("%s %s at %dx%d\n", (*stage)->id.c_str(), (*stage)->title.c_str(), size->width, size->height);
+    for (const Row& row : table) {
+        std::printf("  %-30s %12llu  %s\n", row.name, static_cast<unsigned long long>(row.value), row.note.c_str());
+    }
+    return {};
+}
+
+}  // namespace relief::samples

@@ -1,0 +1,87 @@
+// relief: the command line of the samples.
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "commands.h"
+
+namespace {
+
+using namespace relief;
+using namespace relief::samples;
+
+void addInputOptions(CLI::App& command, RenderOptions& options)
+{
+    command.add_option("stage", options.stage, "A stage, by number (1.07) or name (07_central_difference)")->required();
+    command.add_option("--size", options.size, "Picture size in pixels")->type_name("WxH")->capture_default_str();
+    command.add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
+    command.add_option("--set", options.settings, "A property, as name=value; may be repeated")->type_name("NAME=VALUE");
+    command.add_option("--mesh", options.files.mesh, "An OBJ file in place of the stage's mesh")->type_name("FILE");
+    command.add_option("--albedo", options.files.albedo, "A picture (sRGB) in place of the albedo")->type_name("FILE");
+    command.add_option("--height", options.files.height, "A height map")->type_name("FILE");
+    command.add_option("--normal", options.files.normal, "A normal map (+Y)")->type_name("FILE");
+    command.add_option("--detail", options.files.detail, "A detail albedo (sRGB)")->type_name("FILE");
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app("Relief: a software rasterizer that one can read, step through and trust.", "relief");
+    app.require_subcommand(0, 1);
+    Expected<void> result;
+    RenderOptions options;
+    bool json = false;
+    std::string output;
+    int tileSize = kDefaultTileSize, frames = 0;
+    std::vector<std::string> benchArguments;
+
+    CLI::App* command = app.add_subcommand("list", "Shows all stages");
+    command->add_flag("--json", json, "As JSON, with the properties of each");
+    command->callback([&] { result = list(json); });
+
+    command = app.add_subcommand("render", "Renders a stage to a PNG file");
+    addInputOptions(*command, options);
+    command->add_option("-o,--output", output, "The file; default: the stage's name")->type_name("FILE.png");
+    command->callback([&] { result = render(options, output); });
+
+    command = app.add_subcommand("gallery", "Renders every stage, and a page that shows them");
+    std::string folder = "gallery";
+    command->add_option("--out", folder, "The folder")->capture_default_str()->type_name("DIR");
+    command->add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
+    command->callback([&] { result = gallery(folder, options.threads); });
+
+    command = app.add_subcommand("view", "Shows a stage in a window");
+    addInputOptions(*command, options);
+    command->add_option("--frames", frames, "Close after this many frames; 0: when the user does")->check(CLI::Range(0, 1000000));
+    command->callback([&] { result = view(options, frames); });
+
+    command = app.add_subcommand("hash", "Prints the hash of a stage's float colour and depth");
+    addInputOptions(*command, options);
+    command->add_option("--tile", tileSize, "Tile size in pixels")->check(CLI::IsMember({16, 32, 64, 128}));
+    command->callback([&] { result = hash(options, tileSize); });
+
+    command = app.add_subcommand("explain", "Prints what drawing a stage took, and what was left out");
+    addInputOptions(*command, options);
+    command->add_flag("--json", json, "As JSON");
+    command->callback([&] { result = explain(options, json); });
+
+    command = app.add_subcommand("bench", "Measures how fast frames are (options of Google Benchmark follow)");
+    command->allow_extras();
+    command->callback([&, command] { result = bench(command->remaining()); });
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp& help) {
+        return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+        std::fprintf(stderr, "relief: %s; see --help\n", error.what());
+        return 2;
+    }
+    if (argc < 2) std::fputs(app.help().c_str(), stdout);
+    if (!result) {
+        std::fprintf(stderr, "relief: %s\n", result.error().message.c_str());
+        return 2;
+    }
+    return 0;
+}

@@ -1,0 +1,74 @@
+// 0.02 Interpolators: perspective-correct beside affine
+// New: uv coordinates go from the vertices to the pixels, on a quad that leans away from the viewer.
+// Was: colours, on a triangle that faces the viewer (0.01).
+#include "common/stage.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    TEXCOORD<0, float2> uv;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float2> uv;
+    noperspective<TEXCOORD<1, float2>> affineUV;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.uv = v.uv;
+        i.affineUV = v.uv;
+        return i;
+    }
+};
+
+struct MyFragmentProgram
+{
+    Float squares;
+    bool affine;
+
+    float4 operator()(Interpolators i) const
+    {
+        const float2 uv = affine ? float2(i.affineUV) : float2(i.uv);
+
+        // A chessboard: the parity of the square's column and row.
+        const float2 square = floor(uv * squares);
+        const Float dark = frac((square.x + square.y) * 0.5f) * 2.0f;
+        return float4(lerp(float3(uv.x, uv.y, 0.6f), float3(0.05f), dark), 1);
+    }
+};
+
+}  // namespace
+
+Stage basics_02_interpolators()
+{
+    return {.title = "Interpolators",
+            .section = "part 2",
+            .news = "Left: perspective-correct. Right: affine, as if the screen were the surface; it breaks along the diagonal.",
+            .properties = {{"squares", glm::vec4(8.0f), 1.0f, 64.0f, 1, "squares of the board along a side"},
+                           {"lean", glm::vec4(65.0f), 0.0f, 89.0f, 1, "how far the quads lean back, degrees"}},
+            .inputs = {.mesh = "quad", .albedo = "", .height = "", .normal = "", .detail = ""},
+            .camera = {.position = {0.0f, 0.15f, -1.5f}},
+            .draw = [](const Scene& s) {
+                const glm::mat4 lean = rotationX(s.number("lean")[0]);
+                const Float squares = s.number("squares");
+                s.frame.draw(s.mesh, MyVertexProgram{s.object(translation({-0.56f, 0, 0}) * lean)},
+                             MyFragmentProgram{squares, false});
+                s.frame.draw(s.mesh, MyVertexProgram{s.object(translation({0.56f, 0, 0}) * lean)},
+                             MyFragmentProgram{squares, true});
+            }};
+}
+
+}  // namespace relief::samples

@@ -1,0 +1,84 @@
+// 0.03 Depth: two quads that pass through each other
+// New: the depth test decides, pixel by pixel, which of two surfaces is seen.
+// Was: surfaces that do not meet (0.02).
+#include "common/stage.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        return i;
+    }
+};
+
+struct ShowColor
+{
+    float3 color;
+
+    float4 operator()(Interpolators) const { return float4(color, 1); }
+};
+
+// What the depth buffer holds, z / w: most of it lies near 1. `nearest` is shown black.
+struct ShowDepth
+{
+    Float nearest;
+
+    float4 operator()(Interpolators i) const { return float4(float3((i.position.z - nearest) / (1.0f - nearest)), 1); }
+};
+
+// 1 / w, the reciprocal of the distance along the view: linear on the screen, which is why interpolation uses it.
+struct ShowInverseW
+{
+    float4 operator()(Interpolators i) const { return float4(float3(1.0f / i.position.w), 1); }
+};
+
+constexpr RenderState kBothSides = {.cull = Cull::none};
+
+}  // namespace
+
+Stage basics_03_depth()
+{
+    return {.title = "Depth",
+            .section = "part 3",
+            .news = "Two quads pass through each other; from left to right: colour, the depth buffer's z, and 1/w.",
+            .properties = {{"turn", glm::vec4(50.0f), 0.0f, 90.0f, 1, "angle between the quads and the screen, degrees"},
+                           {"nearest", glm::vec4(0.95f), 0.0f, 0.99f, 1, "the z that is shown black"}},
+            .inputs = {.mesh = "quad", .albedo = "", .height = "", .normal = "", .detail = ""},
+            .camera = {.position = {0.0f, 0.0f, -1.75f}},
+            .draw = [](const Scene& s) {
+                const float turn = s.number("turn")[0];
+                const float3 colors[] = {{0.9f, 0.45f, 0.1f}, {0.1f, 0.35f, 0.8f}};
+                for (int k = 0; k < 2; ++k) {
+                    for (int view = 0; view < 3; ++view) {
+                        // One camera for all three views, each in its third of the picture.
+                        const int third = s.width / 3;
+                        s.frame.setViewport({(view - 1) * third, 0, s.width, s.height});
+                        s.frame.setScissor({view * third, 0, (view + 1) * third, s.height});
+                        const MyVertexProgram vertex{s.object(rotationY(k == 0 ? turn : -turn) * scaling(glm::vec3(0.72f)))};
+                        if (view == 0) s.frame.draw<kBothSides>(s.mesh, vertex, ShowColor{colors[k]});
+                        if (view == 1) s.frame.draw<kBothSides>(s.mesh, vertex, ShowDepth{s.number("nearest")});
+                        if (view == 2) s.frame.draw<kBothSides>(s.mesh, vertex, ShowInverseW{});
+                    }
+                }
+            }};
+}
+
+}  // namespace relief::samples

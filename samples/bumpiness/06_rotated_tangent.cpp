@@ -1,0 +1,93 @@
+// 1.06 Rotated tangent: Rendering 6 "Bumpiness", section 1.4
+// New: the tangent, turned by 90 degrees about z, is the normal.
+// Was: the tangent itself (1.05).
+#include "common/stage.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+    TEXCOORD<0, float2> uv;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float2> uv;
+    TEXCOORD<1, float3> normal;
+    TEXCOORD<2, float3> worldPos;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+    float4 mainTex_ST;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.normal = UnityObjectToWorldNormal(object, v.normal);
+        i.uv = TRANSFORM_TEX(v.uv, mainTex_ST);
+        return i;
+    }
+};
+
+struct MyFragmentProgram
+{
+    float4 tint;
+    Float metallic, smoothness;
+    float3 worldSpaceCameraPos;
+    UnityLight light;
+    sampler2D mainTex;
+    sampler2D heightMap;
+    float4 heightMap_TexelSize;
+    Float bumpScale;
+
+    void InitializeFragmentNormal(Interpolators& i) const
+    {
+        const float2 delta = float2(heightMap_TexelSize.x, 0);
+        const Float h1 = tex2D(heightMap, i.uv).x;
+        const Float h2 = tex2D(heightMap, i.uv + delta).x;
+        i.normal = float3((h1 - h2) * bumpScale, 1, 0);
+        i.normal = normalize(i.normal);
+    }
+
+    float4 operator()(Interpolators i) const
+    {
+        InitializeFragmentNormal(i);
+        const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
+
+        float3 albedo = tex2D(mainTex, i.uv).xyz() * tint.xyz();
+        float3 specularTint;
+        Float oneMinusReflectivity;
+        albedo = DiffuseAndSpecularFromMetallic(albedo, metallic, specularTint, oneMinusReflectivity);
+
+        return UNITY_BRDF_PBS(albedo, specularTint, smoothness, i.normal, viewDir, light);
+    }
+};
+
+}  // namespace
+
+Stage bumpiness_06_rotated_tangent()
+{
+    return {.title = "Rotated tangent",
+            .section = "1.4",
+            .news = "The tangent turned by 90 degrees: real normals, along u.",
+            .properties = litProperties({bumpScaleProperty()}),
+            .inputs = {.mesh = "quad", .albedo = kNone, .height = "marble-heights.png"},
+            .camera = {.position = {0.0f, 0.9f, -0.75f}},
+            .draw = [](const Scene& s) {
+                s.frame.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
+                             MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
+                                               s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap, s.heightMap_TexelSize,
+                                               s.number("bumpScale")});
+            }};
+}
+
+}  // namespace relief::samples

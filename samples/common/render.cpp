@@ -1,0 +1,106 @@
+#include "common/render.h"
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace relief::samples {
+
+namespace {
+
+// A number as it is written: "0.5", not "0.500000".
+std::string text(float number)
+{
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%g", static_cast<double>(number));
+    return buffer;
+}
+
+Expected<void> set(const Stage& stage, std::vector<Property>& properties, const std::string& setting)
+{
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) return fail("--set " + setting + ": write name=value");
+    const std::string name = setting.substr(0, equals);
+    Property* property = nullptr;
+    std::string names;
+    for (Property& p : properties) {
+        if (p.name == name) property = &p;
+        names += (names.empty() ? "" : ", ") + p.name;
+    }
+    if (property == nullptr) {
+        return fail("--set " + setting + ": stage " + stage.id + " has no property '" + name + "'; it has " +
+                    (names.empty() ? "none" : names));
+    }
+
+    const char* at = setting.data() + equals + 1;
+    const char* const end = setting.data() + setting.size();
+    for (int i = 0; i < property->components; ++i) {
+        float number = 0.0f;
+        const auto [rest, error] = std::from_chars(at, end, number);
+        const bool last = rest == end;
+        if (error != std::errc() || !std::isfinite(number) || (!last && (*rest != ',' || i + 1 == property->components))) {
+            return fail("--set " + setting + ": '" + std::string(setting, equals + 1) + "' is not " +
+                        (property->components == 1 ? std::string("a number")
+                                                   : "up to " + std::to_string(property->components) +
+                                                         " numbers with commas between them"));
+        }
+        if (number < property->minimum || number > property->maximum) {
+            return fail("--set " + setting + ": " + text(number) + " is outside the range of " + name + ", " +
+                        text(property->minimum) + " to " + text(property->maximum));
+        }
+        property->value[i] = number;
+        if (last) break;
+        at = rest + 1;
+    }
+    return {};
+}
+
+}  // namespace
+
+Expected<PreparedStage> PreparedStage::prepare(const Stage& stage, const std::vector<std::string>& settings,
+                                               const InputFiles& files)
+{
+    PreparedStage prepared;
+    prepared.stage = &stage;
+    prepared.properties = stage.properties;
+    for (const std::string& setting : settings) {
+        const Expected<void> result = set(stage, prepared.properties, setting);
+        if (!result) return tl::unexpected(result.error());
+    }
+    Expected<std::unique_ptr<LoadedInputs>> inputs = loadInputs(stage.inputs, files);
+    if (!inputs) return tl::unexpected(inputs.error());
+    prepared.inputs = std::move(*inputs);
+    return prepared;
+}
+
+void PreparedStage::record(Frame& frame, int width, int height, const Camera& camera) const
+{
+    frame.reset();
+    frame.clear(kBackground);
+    stage->draw(Scene(frame, width, height, camera, *inputs, properties));
+}
+
+std::uint64_t hashOf(const Framebuffer& target)
+{
+    // FNV-1a over 32-bit words. A NaN would be canonical, but none gets into a target.
+    std::uint64_t hash = 14695981039346656037ull;
+    const auto add = [&hash](float number) {
+        const std::uint32_t bits = number != number ? 0x7fc00000u : std::bit_cast<std::uint32_t>(number);
+        hash = (hash ^ bits) * 1099511628211ull;
+    };
+    for (const glm::vec4& color : target.color32f()) {
+        for (int c = 0; c < 4; ++c) add(color[c]);
+    }
+    for (const float depth : target.depth()) add(depth);
+    return hash;
+}
+
+std::string hexadecimal(std::uint64_t hash)
+{
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+    return digits;
+}
+
+}  // namespace relief::samples

@@ -1,0 +1,40 @@
+// Renders one stage: what the command line, the window, the golden tests and the benchmarks all do.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/stage.h"
+
+namespace relief::samples {
+
+// The background of all stages, linear.
+inline constexpr glm::vec4 kBackground{0.035f, 0.04f, 0.05f, 1.0f};
+
+// A stage with its inputs loaded and its properties as the user wants them; can be drawn again and again.
+class PreparedStage
+{
+public:
+    // Each of `settings` is "name=value", where a value is a number or, for colours and vectors, up to four of them with
+    // commas. An unknown name, a value that is no number or out of the property's range, or a file that cannot be read is
+    // an error.
+    static Expected<PreparedStage> prepare(const Stage& stage, const std::vector<std::string>& settings = {},
+                                           const InputFiles& files = {});
+
+    // Records the stage's draws on a cleared frame of a target of this size.
+    void record(Frame& frame, int width, int height) const { record(frame, width, height, stage->camera); }
+    void record(Frame& frame, int width, int height, const Camera& camera) const;
+
+    const Stage* stage = nullptr;
+    std::vector<Property> properties;
+    std::unique_ptr<LoadedInputs> inputs;
+};
+
+// A 64-bit hash of the float colours and the depths of a target of format rgba32f that keeps its depth: one number that
+// is the same on every machine, for any number of threads and lanes and any tile size.
+std::uint64_t hashOf(const Framebuffer& target);
+
+// 16 hexadecimal digits.
+std::string hexadecimal(std::uint64_t hash);
+
+}  // namespace relief::samples

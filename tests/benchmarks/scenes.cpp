@@ -1,0 +1,197 @@
+#include "scenes.h"
+
+#include "common/camera.h"
+#include "common/render.h"
+#include "relief.h"
+#include "shading/object_transform.h"
+
+namespace relief::benchmarks {
+
+namespace {
+
+struct PositionOnly
+{
+    POSITION position;
+};
+
+struct PositionUv
+{
+    POSITION position;
+    TEXCOORD<0, float2> uv;
+};
+
+struct PositionNormal
+{
+    POSITION position;
+    NORMAL normal;
+};
+
+struct FlatInterpolators
+{
+    SV_POSITION position;
+};
+
+struct UvInterpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float2> uv;
+};
+
+struct NormalInterpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float3> normal;
+};
+
+// Covers the screen at one depth; the quad is the unit quad.
+struct ScreenVertexProgram
+{
+    Float depth;
+
+    FlatInterpolators operator()(PositionOnly v) const
+    {
+        return {float4(v.position.x * 2.0f, v.position.y * 2.0f, depth, 1)};
+    }
+};
+
+struct ConstantFragmentProgram
+{
+    float4 color;
+
+    float4 operator()(FlatInterpolators) const { return color; }
+};
+
+struct PlaneVertexProgram
+{
+    ObjectTransform object;
+    Float tiling;
+
+    UvInterpolators operator()(PositionUv v) const
+    {
+        return {UnityObjectToClipPos(object, v.position), float2(v.uv * tiling)};
+    }
+};
+
+struct TextureFragmentProgram
+{
+    sampler2D mainTex;
+
+    float4 operator()(UvInterpolators i) const { return tex2D(mainTex, i.uv); }
+};
+
+struct TerrainVertexProgram
+{
+    ObjectTransform object;
+
+    NormalInterpolators operator()(PositionNormal v) const
+    {
+        return {UnityObjectToClipPos(object, v.position), UnityObjectToWorldNormal(object, v.normal)};
+    }
+};
+
+struct LambertFragmentProgram
+{
+    float3 lightDir, color;
+
+    float4 operator()(NormalInterpolators i) const
+    {
+        return float4(color * saturate(dot(normalize(i.normal), lightDir)), 1);
+    }
+};
+
+struct MeshData final : SceneData
+{
+    Mesh mesh;
+    std::optional<Texture> texture;
+};
+
+std::unique_ptr<SceneData> clearOnly(Frame&, int, int) { return std::make_unique<MeshData>(); }
+
+std::unique_ptr<SceneData> layers(Frame& frame, int count)
+{
+    auto data = std::make_unique<MeshData>();
+    data->mesh = makeQuad();
+    for (int i = 0; i < count; ++i) {
+        const float part = static_cast<float>(i + 1) / static_cast<float>(count + 1);
+        frame.draw<RenderState{.cull = Cull::none}>(data->mesh, ScreenVertexProgram{1.0f - part},
+                                                    ConstantFragmentProgram{float4(part, 0.5f, 0.25f, 1)});
+    }
+    return data;
+}
+
+// 512 x 512 texels of noise and a grid, RGBA8.
+Texture testTexture()
+{
+    std::vector<std::uint8_t> pixels;
+    std::uint32_t noise = 1;
+    for (int i = 0; i < 512 * 512; ++i) {
+        noise = noise * 1664525u + 1013904223u;
+        const bool line = i % 32 == 0 || i / 512 % 32 == 0;
+        for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<std::uint8_t>(line ? 255 : 64 + (noise >> 25)));
+        pixels.push_back(255);
+    }
+    return *Texture::fromRgba8(512, 512, pixels, ColorSpace::linear);
+}
+
+glm::mat4 clipFromWorld(const samples::Camera& camera, int width, int height)
+{
+    return samples::clipFromView(camera, static_cast<float>(width) / static_cast<float>(height)) *
+           samples::viewFromWorld(camera);
+}
+
+std::unique_ptr<SceneData> trilinearPlane(Frame& frame, int width, int height)
+{
+    auto data = std::make_unique<MeshData>();
+    data->mesh = makeQuad();
+    data->texture.emplace(testTexture());
+    const samples::Camera camera = {.position = {0, 1, 0}, .target = {0, 1, 1}, .fieldOfView = 60, .farPlane = 1000};
+    const glm::mat4 world = samples::rotationX(90) * samples::scaling(glm::vec3(800));
+    frame.draw(data->mesh, PlaneVertexProgram{{clipFromWorld(camera, width, height), world}, 400.0f},
+               TextureFragmentProgram{{.texture = &*data->texture}});
+    return data;
+}
+
+std::unique_ptr<SceneData> millionTriangles(Frame& frame, int width, int height)
+{
+    auto data = std::make_unique<MeshData>();
+    data->mesh = makeTerrain(1000, 500);
+    const samples::Camera camera = {.position = {0, 0.75f, -0.6f}, .target = {0, 0, -0.02f}, .fieldOfView = 50};
+    const glm::mat4 world = samples::scaling({1.6f, 1, 1});
+    frame.draw(data->mesh, TerrainVertexProgram{{clipFromWorld(camera, width, height), world}},
+               LambertFragmentProgram{normalize(float3(0.4f, 0.8f, -0.4f)), float3(0.8f, 0.7f, 0.5f)});
+    return data;
+}
+
+struct StageData final : SceneData
+{
+    std::optional<samples::PreparedStage> stage;
+};
+
+std::unique_ptr<SceneData> stage(Frame& frame, int width, int height, const char* name)
+{
+    auto data = std::make_unique<StageData>();
+    const auto found = samples::findStage(name);
+    if (!found) return data;
+    auto prepared = samples::PreparedStage::prepare(**found);
+    if (!prepared) return data;
+    data->stage.emplace(std::move(*prepared));
+    data->stage->record(frame, width, height);
+    return data;
+}
+
+}  // namespace
+
+const std::vector<BenchScene>& benchScenes()
+{
+    static const std::vector<BenchScene> scenes = {
+        {"clear", "nothing is drawn", clearOnly},
+        {"flat_quad", "one colour on every pixel", [](Frame& f, int, int) { return layers(f, 1); }},
+        {"trilinear_plane", "a ground plane to the horizon, one trilinear RGBA8 fetch", trilinearPlane},
+        {"layers_32", "32 full-screen layers, back to front", [](Frame& f, int, int) { return layers(f, 32); }},
+        {"million_triangles", "a height field of 1,000,000 triangles, Lambert", millionTriangles},
+        {"stage_1.09", "five fetches and GGX on a quad", [](Frame& f, int w, int h) { return stage(f, w, h, "1.09"); }},
+    };
+    return scenes;
+}
+
+}  // namespace relief::benchmarks
