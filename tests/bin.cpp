@@ -38,7 +38,7 @@ TEST_CASE("bin: tiles get exactly the triangles that no edge keeps out, in order
 
         TriangleChunk chunk;
         std::vector<Corners> corners;
-        while (static_cast<int>(corners.size()) < trials(2000)) {
+        while (static_cast<int>(corners.size()) < trials(600)) {
             const Corners c = randomTriangle(random, kWidth, kHeight, kGuardBand);
             const Triangle t = clockwise(c);
             const Rectangle box = sampleBounds(t, draw.bounds);

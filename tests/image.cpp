@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/resource.h>
@@ -304,6 +305,10 @@ TEST_CASE("image: a JPEG whose Huffman table is too long")
     const std::string table = std::string("\xff\xff\xc4\x01\x20\x00", 6) + std::string(14, '\0') + "\xff\x02";
     const std::string late = jpeg.substr(0, jpeg.size() - 2) + table + std::string(257, '\0') + "\xff\xd9";
     CHECK(contains(errorOf(folder.write("a.jpg", late)), "bad Huffman table"));
+
+    // Behind something in the compressed data that looks like a long segment.
+    const std::string hidden = jpeg.substr(0, jpeg.size() - 2) + std::string("\xff\x00\x7f\xff", 4) + table;
+    CHECK(contains(errorOf(folder.write("a.jpg", hidden)), "bad Huffman table"));
 
     // The same bytes in a comment are none of our business.
     const std::string comment = jpeg.substr(0, 2) + std::string("\xff\xfe\x00\x18", 4) + table + jpeg.substr(2);

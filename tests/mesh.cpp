@@ -1,9 +1,14 @@
 // Meshes: what validate() refuses, and normals whose directions are known.
 #include "mesh/mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -33,19 +38,27 @@ struct Polygon
     double area;
 };
 
-// Twice the signed areas of the triangles: their sum, and the sum of their sizes.
-void checkTriangulation(const Polygon& polygon, glm::vec3 offset)
+// Every triangle turns like the polygon, whose front is +axis (or -axis where it is turned over), and the areas add up.
+void checkTriangulation(const Polygon& polygon, int axis, bool turnedOver, glm::vec3 offset)
 {
-    std::vector<glm::vec3> corners = polygon.corners;
-    for (glm::vec3& corner : corners) corner += offset;
+    std::vector<glm::vec3> corners;
+    for (const glm::vec3& corner : polygon.corners) {
+        glm::vec3 placed = offset;
+        placed[(axis + 1) % 3] += corner.x;
+        placed[(axis + 2) % 3] += corner.y;
+        placed[axis] += 0.1f * corner.x;  // a bit tilted
+        corners.push_back(placed);
+    }
+    if (turnedOver) std::reverse(corners.begin(), corners.end());
     const auto triangles = triangulate(corners);
     REQUIRE(triangles.size() == corners.size() - 2);
     double area = 0;
     for (const auto& [a, b, c] : triangles) {
         const glm::dvec3 cross = glm::cross(glm::dvec3(corners[b]) - glm::dvec3(corners[a]),
                                             glm::dvec3(corners[c]) - glm::dvec3(corners[a]));
-        CHECK(cross.z >= 0);
-        area += 0.5 * cross.z;
+        const double projected = turnedOver ? -cross[axis] : cross[axis];
+        CHECK(projected >= 0);
+        area += 0.5 * projected;
     }
     CHECK(area == doctest::Approx(polygon.area));
 }
@@ -163,7 +176,11 @@ TEST_CASE("triangulate: concave polygons keep their area wherever they lie")
             for (std::size_t first = 0; first < polygon.corners.size(); ++first) {
                 CAPTURE(first);
                 CAPTURE(polygon.area);
-                checkTriangulation(rotated, offset);
+                for (int axis = 0; axis < 3; ++axis) {
+                    CAPTURE(axis);
+                    checkTriangulation(rotated, axis, false, offset);
+                    checkTriangulation(rotated, axis, true, offset);
+                }
                 rotated.corners.push_back(rotated.corners.front());
                 rotated.corners.erase(rotated.corners.begin());
             }

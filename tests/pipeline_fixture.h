@@ -2,6 +2,7 @@
 // clip space, the smallest programs, exact coverage to compare with, and the checks that hold after every frame.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -326,6 +327,50 @@ Statistics drawClip(Framebuffer& target, const Mesh& mesh, const FragmentProgram
     frame.clear(glm::vec4(0.0f));
     frame.draw<state>(mesh, FromClip{}, fragment);
     return frame.run();
+}
+
+// One draw's front end without a frame: clip-space positions in, codes and screen positions out, ready for setup.
+struct FrontEnd
+{
+    FrontEnd(std::vector<glm::vec4> positions, std::vector<std::uint32_t> corners, const Viewport& viewport)
+        : clip(std::move(positions)), indices(std::move(corners)), screen(clip.size()), codes(clip.size())
+    {
+        draw.indices = indices.data();
+        draw.triangleCount = static_cast<std::uint32_t>(indices.size() / 3);
+        draw.vertexCount = static_cast<std::uint32_t>(clip.size());
+        draw.clip = clip.data();
+        draw.screen = screen.data();
+        draw.codes = codes.data();
+        draw.viewport = viewport;
+        draw.bounds = {viewport.x, viewport.y, viewport.x + viewport.width, viewport.y + viewport.height};
+        draw.cull = Cull::none;
+    }
+
+    void project()
+    {
+        const std::vector<glm::vec4> in = clip;
+        for (std::size_t first = 0; first < in.size(); first += kLanes) {
+            const std::size_t count = std::min<std::size_t>(kLanes, in.size() - first);
+            float4 lanes(Float(0.0f));
+            for (std::size_t i = 0; i < count; ++i) {
+                for (int c = 0; c < 4; ++c) lanes[c].set(static_cast<int>(i), in[first + i][c]);
+            }
+            projectVertices(draw, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), lanes);
+        }
+    }
+
+    std::vector<glm::vec4> clip;
+    std::vector<std::uint32_t> indices;
+    std::vector<ScreenVertex> screen;
+    std::vector<std::uint16_t> codes;
+    DrawGeometry draw;
+};
+
+// A point in pixels as a clip-space position, exact in an exactViewport() at the origin.
+inline glm::vec4 clipPosition(Point p, const Viewport& v, float z = 0.5f)
+{
+    return {static_cast<float>(p.x) / 128.0f / static_cast<float>(v.width) - 1.0f,
+            1.0f - static_cast<float>(p.y) / 128.0f / static_cast<float>(v.height), z, 1.0f};
 }
 
 // --- looking at results ---

@@ -311,7 +311,7 @@ TEST_CASE("raster: moved by whole pixels, the same pixels move along (S-310)")
     for (int trial = 0; trial < trials(5000); ++trial) {
         const int dx = random.between(-31, 31), dy = random.between(-31, 31);
         Corners c;
-        for (Point& p : c) p = {random.between(31 * 256, 33 * 256 * 2 / 2), random.between(31 * 256, 33 * 256)};
+        for (Point& p : c) p = {random.between(31 * 256, 33 * 256), random.between(31 * 256, 33 * 256)};
         Corners moved = c;
         for (Point& p : moved) p = {p.x + dx * 256, p.y + dy * 256};
         raster.reset();

@@ -10,7 +10,7 @@ class Double
 {
 public:
     Double() = default;
-    Double(double number) : low(native::DoubleVector{} + number), high(low) {}
+    Double(double number) : low(number - native::DoubleVector{}), high(low) {}
     Double(native::DoubleVector l, native::DoubleVector h) : low(l), high(h) {}
     explicit Double(Int i) : low(native::lowToDouble(i.value)), high(native::highToDouble(i.value)) {}
 

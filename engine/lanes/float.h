@@ -18,7 +18,7 @@ public:
     Float() = default;
     template <class Number>
         requires std::is_arithmetic_v<Number>
-    constexpr Float(Number number) : value(native::FloatVector{} + static_cast<float>(number))
+    constexpr Float(Number number) : value(static_cast<float>(number) - native::FloatVector{})  // keeps -0
     {
     }
     explicit Float(native::FloatVector native) : value(native) {}

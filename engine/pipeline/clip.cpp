@@ -32,13 +32,31 @@ float between(float a, float b, double t)
     return std::clamp(static_cast<float>(value), std::min(a, b), std::max(a, b));
 }
 
+// The coordinate that lies on the plane, from the plane's own equation. Between two ends that are 1e30 apart, on either
+// side of the screen, no t is fine enough to hit the plane.
+void putOnPlane(Plane plane, const ClipLimits& limits, const glm::vec4& a, const glm::vec4& b, glm::vec4& p)
+{
+    const auto put = [&](int i, float value) { p[i] = std::clamp(value, std::min(a[i], b[i]), std::max(a[i], b[i])); };
+    switch (plane) {
+        case Plane::smallW: return put(3, kSmallestW);
+        case Plane::near: return put(2, 0.0f);
+        case Plane::far: return put(2, p.w);
+        case Plane::left: return put(0, -p.w / limits.inverseGuardX);
+        case Plane::right: return put(0, p.w / limits.inverseGuardX);
+        case Plane::bottom: return put(1, -p.w / limits.inverseGuardY);
+        case Plane::top: return put(1, p.w / limits.inverseGuardY);
+    }
+}
+
 // The point where the edge leaves the plane; t is in [0, 1] because the distances have strictly different signs.
-ClipVertex cut(const ClipVertex& inside, double insideDistance, const ClipVertex& outside, double outsideDistance)
+ClipVertex cut(Plane plane, const ClipLimits& limits, const ClipVertex& inside, double insideDistance,
+               const ClipVertex& outside, double outsideDistance)
 {
     const double t = std::clamp(insideDistance / (insideDistance - outsideDistance), 0.0, 1.0);
     ClipVertex v;
     for (int i = 0; i < 4; ++i) v.position[i] = between(inside.position[i], outside.position[i], t);
     for (int k = 0; k < 3; ++k) v.weight[k] = between(inside.weight[k], outside.weight[k], t);
+    putOnPlane(plane, limits, inside.position, outside.position, v.position);
     return v;
 }
 
@@ -65,8 +83,8 @@ int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span
             const double da = distance(plane, a.position, limits);
             const double db = distance(plane, b.position, limits);
             if (da >= 0.0) next[kept++] = a;
-            if (da > 0.0 && db < 0.0) next[kept++] = cut(a, da, b, db);
-            if (da < 0.0 && db > 0.0) next[kept++] = cut(b, db, a, da);
+            if (da > 0.0 && db < 0.0) next[kept++] = cut(plane, limits, a, da, b, db);
+            if (da < 0.0 && db > 0.0) next[kept++] = cut(plane, limits, b, db, a, da);
         }
         std::swap(polygon, next);
         count = kept;

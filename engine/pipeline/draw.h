@@ -55,8 +55,9 @@ public:
     virtual void shadeBlocks(std::span<const CoveredBlock> blocks, const TriangleChunk& chunk, Tile& tile,
                              Statistics& statistics) const = 0;
 
-    // Runs the fragment program alone, `blocks` times, without raster, depth, blending or memory: the shader's own cost.
-    virtual float shadeAlone(std::uint64_t blocks) const = 0;
+    // Runs the fragment program alone `times` times on the input of one block: without raster, depth test, blending and
+    // memory, the program's own cost. Returns a sum of the results.
+    virtual float shadeAlone(const CoveredBlock& block, const TriangleChunk& chunk, std::uint64_t times) const = 0;
 
     DrawGeometry geometry;
 };
@@ -94,17 +95,49 @@ public:
             if (block.triangle != current) {
                 current = block.triangle;
                 triangle = TriangleWeights(*current);
-                corners.set(componentsOf(geometry, chunk, current->vertex[0]),
-                            componentsOf(geometry, chunk, current->vertex[1]),
-                            componentsOf(geometry, chunk, current->vertex[2]));
+                corners = cornersOf(*current, chunk);
             }
             shadeBlock(block, triangle, corners, tile, statistics);
         }
     }
 
-    float shadeAlone(std::uint64_t blocks) const override;
+    [[gnu::flatten]] float shadeAlone(const CoveredBlock& block, const TriangleChunk& chunk,
+                                      std::uint64_t times) const override
+    {
+        const TriangleWeights triangle(*block.triangle);
+        const CornerComponents<kCount> corners = cornersOf(*block.triangle, chunk);
+        const BlockWeights weights = triangle.at(block.x, block.y, block.coverage);
+        const Interpolators input =
+            interpolate<Interpolators>(triangle, corners, weights, block.x, block.y, triangle.depth(weights));
+        activeLanes = wholeQuads(block.coverage);
+        float4 sum(Float(0.0f));
+        for (std::uint64_t i = 0; i < times; ++i) {
+            Interpolators again = input;
+            asm volatile("" : "+m"(again));  // new to the compiler every time, or it would run the program once
+            Discard discard;
+            sum += runProgram(again, discard);
+        }
+        return sum.x[0] + sum.y[0] + sum.z[0] + sum.w[0];
+    }
 
 private:
+    CornerComponents<kCount> cornersOf(const Triangle& triangle, const TriangleChunk& chunk) const
+    {
+        CornerComponents<kCount> corners;
+        corners.set(componentsOf(geometry, chunk, triangle.vertex[0]), componentsOf(geometry, chunk, triangle.vertex[1]),
+                    componentsOf(geometry, chunk, triangle.vertex[2]));
+        return corners;
+    }
+
+    float4 runProgram(const Interpolators& input, [[maybe_unused]] Discard& discard) const
+    {
+        if constexpr (kMayDiscard) {
+            return fragmentProgram(input, discard);
+        } else {
+            return fragmentProgram(input);
+        }
+    }
+
     void shadeBlock(const CoveredBlock& block, const TriangleWeights& triangle, const CornerComponents<kCount>& corners,
                     Tile& tile, Statistics& statistics) const
     {
@@ -115,7 +148,7 @@ private:
             return;
         }
         const BlockWeights weights = triangle.at(block.x, block.y, block.coverage);
-        const Float depth = kUsesDepth ? triangle.depth(weights) : Float(0.0f);
+        const Float depth = triangle.depth(weights);
 
         // Early depth test: before the program runs, unless the program may throw the pixel away afterwards.
         Mask live = Mask::fromBits(block.coverage);
@@ -143,14 +176,11 @@ private:
         statistics.pixelsShaded += static_cast<unsigned>(count(live));
 
         const Interpolators input = interpolate<Interpolators>(triangle, corners, weights, block.x, block.y, depth);
-        float4 color;
+        Discard discard;
+        float4 color = runProgram(input, discard);
         if constexpr (kMayDiscard) {
-            Discard discard;
-            color = fragmentProgram(input, discard);
             live &= !discard.discarded;
             if constexpr (kUsesDepth) testAndWriteDepth();
-        } else {
-            color = fragmentProgram(input);
         }
         statistics.invalidColors += static_cast<unsigned>(sanitizeColor(color, live));
         mergeColor<state.blend>(tile, index, color, live);
@@ -160,35 +190,5 @@ private:
     VertexProgram vertexProgram;
     FragmentProgram fragmentProgram;
 };
-
-template <RenderState state, class VertexData, class VertexProgram, class FragmentProgram>
-[[gnu::flatten]] float TypedDraw<state, VertexData, VertexProgram, FragmentProgram>::shadeAlone(
-    std::uint64_t blocks) const
-{
-    // Interpolators as a triangle of 64 x 64 pixels would give them, its corners the mesh's first three vertices.
-    Triangle shape{{0, 0, 64 * kSubpixels}, {64 * kSubpixels, 0, 0}, {0, 0, 0}, {1, 1, 1}, {0, 0, 0}, 0};
-    const TriangleWeights triangle(shape);
-    CornerComponents<kCount> corners;
-    const float* components = geometry.components;
-    const std::uint32_t* corner = geometry.indices;
-    const auto at = [&](int k) { return components + static_cast<std::size_t>(corner[k]) * kCount; };
-    corners.set(at(0), at(1), at(2));
-
-    activeLanes = kAllLanes;
-    float4 sum(Float(0.0f));
-    const BlockWeights weights = triangle.at(16, 16, kAllLanes);
-    Interpolators input = interpolate<Interpolators>(triangle, corners, weights, 16, 16, 0.5f);
-    for (std::uint64_t i = 0; i < blocks; ++i) {
-        // The compiler must take the input for new each time, and keep the result.
-        asm volatile("" : : "r"(&input) : "memory");
-        if constexpr (kMayDiscard) {
-            Discard discard;
-            sum += fragmentProgram(input, discard);
-        } else {
-            sum += fragmentProgram(input);
-        }
-    }
-    return sum.x[0] + sum.y[0] + sum.z[0] + sum.w[0];
-}
 
 }  // namespace relief

@@ -79,8 +79,13 @@ struct Frame::Storage
     void shadeVertices();
     void applyPoison();
     void setUpAndBin();
+    Rectangle tilePixels(int tileIndex) const
+    {
+        const int x = tileIndex % grid.width * grid.tileSize, y = tileIndex / grid.width * grid.tileSize;
+        return {x, y, x + grid.tileSize, y + grid.tileSize};
+    }
     void drawTile(int tileIndex, Worker& worker);
-    void drawBin(const TriangleChunk& chunk, int tileIndex, const Rectangle& pixels, Worker& worker);
+    void drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker);
 
     Framebuffer& target;
     Workers workers;
@@ -217,29 +222,30 @@ void Frame::Storage::drawTile(int tileIndex, Worker& worker)
     }
     if (!touched && !clearColor) return;
 
-    const int x = tileIndex % grid.width * grid.tileSize, y = tileIndex / grid.width * grid.tileSize;
+    const Rectangle pixels = tilePixels(tileIndex);
     if (!worker.tile) worker.tile = std::make_unique<Tile>(grid.tileSize, target.format());
     if (clearColor) {
         if (!touched) {
-            clearRectangle(target, {x, y, x + grid.tileSize, y + grid.tileSize}, *clearColor, clearDepth);
+            clearRectangle(target, pixels, *clearColor, clearDepth);
             return;
         }
-        worker.tile->clear(x, y, *clearColor, clearDepth);
+        worker.tile->clear(pixels.x0, pixels.y0, *clearColor, clearDepth);
     } else {
-        worker.tile->load(x, y, target, clearDepth);
+        worker.tile->load(pixels.x0, pixels.y0, target, clearDepth);
     }
 
     ++worker.statistics.tilesTouched;
     fetchCounters = {};
     for (std::size_t c = 0; c < usedChunks; ++c) {
-        drawBin(chunks[c], tileIndex, {x, y, x + grid.tileSize, y + grid.tileSize}, worker);
+        drawBin(chunks[c], tileIndex, worker);
     }
     worker.statistics.fetches += fetchCounters;
     worker.tile->store(target);
 }
 
-void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, const Rectangle& pixels, Worker& worker)
+void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker)
 {
+    const Rectangle pixels = tilePixels(tileIndex);
     // Blocks are collected and shaded in batches: of one draw each, and at most this many and one more tile's worth.
     constexpr std::size_t kBatch = 256;
     const std::size_t blocksInTile = static_cast<std::size_t>(grid.tileSize * grid.tileSize / kLanes);
@@ -284,9 +290,33 @@ bool Frame::dependsOn(int draw, int component)
 
 float Frame::shadeAlone(std::uint64_t blocks) const
 {
+    // One block of every bin stands for the bin: the middle one of its first triangle.
+    struct Sample
+    {
+        CoveredBlock block;
+        const TriangleChunk* chunk;
+    };
+    const Storage& s = *storage;
+    std::vector<Sample> samples;
+    std::vector<CoveredBlock> covered(static_cast<std::size_t>(s.grid.tileSize * s.grid.tileSize / kLanes) + 1);
+    for (std::size_t c = 0; c < s.usedChunks; ++c) {
+        for (int tile = 0; tile < s.grid.count(); ++tile) {
+            const TriangleChunk& chunk = s.chunks[c];
+            const std::uint32_t first = chunk.binStart[static_cast<std::size_t>(tile)];
+            if (first == chunk.binStart[static_cast<std::size_t>(tile) + 1]) continue;
+            const Triangle& triangle = chunk.triangles[chunk.sorted[first]];
+            const Rectangle pixels = intersect(s.tilePixels(tile), s.draws[triangle.drawIndex]->geometry.bounds);
+            const CoveredBlock* end = rasterise(triangle, sampleBounds(triangle, pixels), covered.data());
+            if (end == covered.data()) continue;
+            samples.push_back({covered[static_cast<std::size_t>(end - covered.data()) / 2], &chunk});
+        }
+    }
     float sum = 0.0f;
-    for (const auto& draw : storage->draws) {
-        if (draw->geometry.triangleCount != 0) sum += draw->shadeAlone(blocks);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        // Shares that add up to `blocks`.
+        const std::uint64_t times = blocks * (i + 1) / samples.size() - blocks * i / samples.size();
+        const Sample& sample = samples[i];
+        sum += s.draws[sample.block.triangle->drawIndex]->shadeAlone(sample.block, *sample.chunk, times);
     }
     return sum;
 }

@@ -55,8 +55,8 @@ public:
     // Forgets the recorded draws and the clear, for the next frame.
     void reset();
 
-    // Each recorded fragment program alone on `blocks` blocks, without raster, depth, blending and memory: what the
-    // frame's shaders cost by themselves. After run(). The sum of the results, so that none can be optimised away.
+    // What the frame's fragment programs cost by themselves: runs each of them `blocks` times in all, on the inputs of one
+    // block in every tile, without raster, depth test, blending and memory. After run(). Returns a sum of the results.
     float shadeAlone(std::uint64_t blocks) const;
 
 private:

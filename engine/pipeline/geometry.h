@@ -54,7 +54,7 @@ struct Viewport
 struct ScreenVertex
 {
     std::int32_t x, y;  // 24.8 fixed point
-    float z;            // 0 ... 1
+    float z;            // 0 ... 1, and beyond where depth is not clipped
     float invW;         // 1 / clip-space w
 };
 

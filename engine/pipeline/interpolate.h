@@ -47,7 +47,12 @@ public:
         for (int k = 1; k < 3; ++k) largest = t.invW[k] > largest ? t.invW[k] : largest;
         const std::uint32_t exponent = std::bit_cast<std::uint32_t>(largest) & 0x7f800000u;
         const float powerOfTwo = std::bit_cast<float>(0x7f000000u - (exponent < 0x00800000u ? 0x00800000u : exponent));
-        for (int k = 0; k < 3; ++k) invW[k] = t.invW[k] * powerOfTwo;
+        // The smallest are kept above zero: a pixel in the very corner has no other weight to be divided by.
+        constexpr float least = std::numeric_limits<float>::min();
+        for (int k = 0; k < 3; ++k) {
+            invW[k] = t.invW[k] * powerOfTwo;
+            invW[k] = invW[k] < least ? least : invW[k];
+        }
         scale = powerOfTwo;
         doubledArea = static_cast<float>(area);
 
@@ -60,6 +65,9 @@ public:
             nearest = t.z[k] < nearest ? t.z[k] : nearest;
             farthest = t.z[k] > farthest ? t.z[k] : farthest;
         }
+        const auto inRange = [](float z) { return z < 0.0f ? 0.0f : z > 1.0f ? 1.0f : z; };
+        nearest = inRange(nearest);
+        farthest = inRange(farthest);
     }
 
     // Of the block whose upper left pixel is (x, y). `covered` lanes lie in the triangle.
@@ -88,7 +96,7 @@ public:
         return w;
     }
 
-    // Linear on screen, and never outside the corners' range, so that coarse depth bounds are safe.
+    // Linear on screen, and never outside 0 ... 1 and the corners' range, so that coarse depth bounds are safe.
     Float depth(const BlockWeights& w) const
     {
         return clamp(z0 + w.linear1 * dz1 + w.linear2 * dz2, nearest, farthest);
@@ -97,7 +105,7 @@ public:
     // Clip-space w at the pixels.
     Float clipW(const BlockWeights& w) const { return doubledArea * w.inverseSum * scale; }
 
-    float nearest = 0, farthest = 0;  // the corners' depths
+    float nearest = 0, farthest = 0;  // the corners' depths, within 0 ... 1
 
 private:
     static std::int32_t span(const std::int32_t v[3])

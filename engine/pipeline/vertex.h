@@ -26,7 +26,7 @@ constexpr bool meshHasAll(FieldList<Field...>)
 
 namespace detail {
 
-// Reads one semantic of up to kLanes vertices. A stream that the mesh does not have reads as zeros.
+// Reads one semantic of up to kLanes vertices. What the mesh does not have, for all or for some, reads as zeros.
 template <class Field>
 void fetch(const Mesh& mesh, std::uint32_t first, std::uint32_t count, Field& field)
 {
@@ -35,8 +35,7 @@ void fetch(const Mesh& mesh, std::uint32_t first, std::uint32_t count, Field& fi
     float lanes[components][kLanes] = {};
     const auto read = [&](const auto& stream) {
         constexpr int streamComponents = static_cast<int>(sizeof stream[0] / sizeof(float));
-        if (stream.empty()) return;
-        for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::uint32_t i = 0; i < count && first + i < stream.size(); ++i) {
             for (int c = 0; c < std::min(components, streamComponents); ++c) lanes[c][i] = stream[first + i][c];
         }
     };

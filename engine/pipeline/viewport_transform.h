@@ -33,7 +33,8 @@ struct ViewportTransform
         const Float invW = 1.0f / clip.w;
         const Float screenX = (clip.x * invW + 1.0f) * halfWidth + x;
         const Float screenY = (1.0f - clip.y * invW) * halfHeight + y;
-        return {snap(screenX), snap(screenY), saturate(clip.z * invW), invW};
+        // Depth beyond 0 ... 1 is clamped pixel by pixel (interpolate.h), here only kept finite.
+        return {snap(screenX), snap(screenY), clamp(clip.z * invW, -1e30f, 1e30f), invW};
     }
 
     // Round to the nearest 1/256, ties to even; clamped to the guard band, so that no input can leave 24 bits.

@@ -36,19 +36,37 @@ struct sampler2D
     glm::vec4 borderColor{0.0f};  // linear; what AddressMode::border shows outside 0..1
 };
 
+namespace detail {
+
+// Single lanes as parameters travel in registers, vectors of them through memory.
+float4 sampleImplicit(const sampler2D& s, Float u, Float v, Float bias);
+float4 sampleGradients(const sampler2D& s, Float u, Float v, const float2& dx, const float2& dy);
+float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod);
+
+}  // namespace detail
+
 // The colour at uv. The level of detail comes from the differences to the neighbouring pixels, so all lanes of a quad
 // must get here together: call it outside of anything that only some lanes do, or use tex2Dgrad or tex2Dlod.
-float4 tex2D(const sampler2D& s, const float2& uv);
+inline float4 tex2D(const sampler2D& s, const float2& uv) { return detail::sampleImplicit(s, uv.x, uv.y, 0.0f); }
 
 // The same with the coordinate's change per pixel given, to the right and down. For coordinates that jump (a seam, a
 // frac) where the surface does not.
-float4 tex2Dgrad(const sampler2D& s, const float2& uv, const float2& dx, const float2& dy);
+inline float4 tex2Dgrad(const sampler2D& s, const float2& uv, const float2& dx, const float2& dy)
+{
+    return detail::sampleGradients(s, uv.x, uv.y, dx, dy);
+}
 
-// The colour at uvLod.xy on level uvLod.w (sampler limits apply, its bias too). Never anisotropic.
-float4 tex2Dlod(const sampler2D& s, const float4& uvLod);
+// The colour at uvLod.xy on level uvLod.w (the sampler's limits and bias apply). Never anisotropic.
+inline float4 tex2Dlod(const sampler2D& s, const float4& uvLod)
+{
+    return detail::sampleLod(s, uvLod.x, uvLod.y, uvLod.w);
+}
 
 // tex2D at uvBias.xy with uvBias.w added to the level of detail.
-float4 tex2Dbias(const sampler2D& s, const float4& uvBias);
+inline float4 tex2Dbias(const sampler2D& s, const float4& uvBias)
+{
+    return detail::sampleImplicit(s, uvBias.x, uvBias.y, uvBias.w);
+}
 
 // The level that tex2D would use, bias and limits included, in 0..levels - 1; and without limits: below 0 is magnified,
 // -infinity where the coordinate does not change. As HLSL's functions of these names.

@@ -139,6 +139,7 @@ const Texture& Texture::flatNormal()
 Texture::Texture(TexelFormat format, MipLevel finest)
     : chain(std::make_unique<Chain>()),
       firstTexel(readTexel(format, finest, 0, 0)),
+      sizes(1.0f / finest.widthInFloat(), 1.0f / finest.heightInFloat(), finest.widthInFloat(), finest.heightInFloat()),
       texelFormat(format),
       columns(finest.width()),
       rows(finest.height()),
@@ -146,12 +147,6 @@ Texture::Texture(TexelFormat format, MipLevel finest)
 {
     chain->levels[0] = std::move(finest);
     chain->published[0].store(&*chain->levels[0], std::memory_order_release);
-}
-
-glm::vec4 Texture::texelSize() const
-{
-    const auto w = static_cast<float>(columns), h = static_cast<float>(rows);
-    return {1.0f / w, 1.0f / h, w, h};
 }
 
 glm::vec4 Texture::texel(int x, int y) const

@@ -49,7 +49,7 @@ public:
     int levelCount() const { return levels; }
 
     // (1 / width, 1 / height, width, height): Unity's _TexelSize.
-    glm::vec4 texelSize() const;
+    const glm::vec4& texelSize() const { return sizes; }
 
     // A texel of level 0 as a fetch gives it, x = 0..width - 1 from the left, y = 0..height - 1 from below.
     glm::vec4 texel(int x, int y) const;
@@ -82,7 +82,7 @@ private:
     const MipLevel& buildLevel(int k) const;
 
     std::unique_ptr<Chain> chain;
-    glm::vec4 firstTexel;
+    glm::vec4 firstTexel, sizes;
     TexelFormat texelFormat;
     int columns, rows, levels;
 };

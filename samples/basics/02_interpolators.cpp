@@ -58,9 +58,9 @@ Stage basics_02_interpolators()
             .section = "part 2",
             .news = "Left: perspective-correct. Right: affine, as if the screen were the surface; it breaks along the diagonal.",
             .properties = {{"squares", glm::vec4(8.0f), 1.0f, 64.0f, 1, "squares of the board along a side"},
-                           {"lean", glm::vec4(65.0f), 0.0f, 89.0f, 1, "how far the quads lean back, degrees"}},
+                           {"lean", glm::vec4(60.0f), 0.0f, 89.0f, 1, "how far the quads lean back, degrees"}},
             .inputs = {.mesh = "quad", .albedo = "", .height = "", .normal = "", .detail = ""},
-            .camera = {.position = {0.0f, 0.15f, -1.5f}},
+            .camera = {.position = {0.0f, 0.35f, -2.1f}, .target = {0.0f, -0.03f, 0.0f}},
             .draw = [](const Scene& s) {
                 const glm::mat4 lean = rotationX(s.number("lean")[0]);
                 const Float squares = s.number("squares");

@@ -36,12 +36,10 @@ struct ShowColor
     float4 operator()(Interpolators) const { return float4(color, 1); }
 };
 
-// What the depth buffer holds, z / w: most of it lies near 1. `nearest` is shown black.
+// What the depth buffer holds, z / w: 0 at the near plane, 1 at the far plane, and most of the way near 1.
 struct ShowDepth
 {
-    Float nearest;
-
-    float4 operator()(Interpolators i) const { return float4(float3((i.position.z - nearest) / (1.0f - nearest)), 1); }
+    float4 operator()(Interpolators i) const { return float4(float3(i.position.z), 1); }
 };
 
 // 1 / w, the reciprocal of the distance along the view: linear on the screen, which is why interpolation uses it.
@@ -59,12 +57,12 @@ Stage basics_03_depth()
     return {.title = "Depth",
             .section = "part 3",
             .news = "Two quads pass through each other; from left to right: colour, the depth buffer's z, and 1/w.",
-            .properties = {{"turn", glm::vec4(50.0f), 0.0f, 90.0f, 1, "angle between the quads and the screen, degrees"},
-                           {"nearest", glm::vec4(0.95f), 0.0f, 0.99f, 1, "the z that is shown black"}},
+            .properties = {{"turn", glm::vec4(50.0f), 0.0f, 90.0f, 1, "how far one quad is turned about Y, degrees"},
+                           {"lean", glm::vec4(50.0f), 0.0f, 90.0f, 1, "how far the other one leans back, degrees"}},
             .inputs = {.mesh = "quad", .albedo = "", .height = "", .normal = "", .detail = ""},
-            .camera = {.position = {0.0f, 0.0f, -1.75f}},
+            .camera = {.position = {0.0f, 0.25f, -1.55f}, .nearPlane = 1.0f, .farPlane = 3.0f},
             .draw = [](const Scene& s) {
-                const float turn = s.number("turn")[0];
+                const glm::mat4 turned[] = {rotationY(s.number("turn")[0]), rotationX(s.number("lean")[0])};
                 const float3 colors[] = {{0.9f, 0.45f, 0.1f}, {0.1f, 0.35f, 0.8f}};
                 for (int k = 0; k < 2; ++k) {
                     for (int view = 0; view < 3; ++view) {
@@ -72,9 +70,9 @@ Stage basics_03_depth()
                         const int third = s.width / 3;
                         s.frame.setViewport({(view - 1) * third, 0, s.width, s.height});
                         s.frame.setScissor({view * third, 0, (view + 1) * third, s.height});
-                        const MyVertexProgram vertex{s.object(rotationY(k == 0 ? turn : -turn) * scaling(glm::vec3(0.72f)))};
+                        const MyVertexProgram vertex{s.object(turned[k] * scaling(glm::vec3(0.62f)))};
                         if (view == 0) s.frame.draw<kBothSides>(s.mesh, vertex, ShowColor{colors[k]});
-                        if (view == 1) s.frame.draw<kBothSides>(s.mesh, vertex, ShowDepth{s.number("nearest")});
+                        if (view == 1) s.frame.draw<kBothSides>(s.mesh, vertex, ShowDepth{});
                         if (view == 2) s.frame.draw<kBothSides>(s.mesh, vertex, ShowInverseW{});
                     }
                 }

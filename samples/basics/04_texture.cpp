@@ -40,7 +40,7 @@ struct MyFragmentProgram
     float4 operator()(Interpolators i) const { return tex2D(mainTex, i.uv); }
 };
 
-// A colour for every mip level, blended as trilinear filtering blends: red is level 0, then yellow, green, cyan, blue.
+// A colour for every mip level, blended as trilinear filtering blends: red 0, yellow 1, green 2, cyan 3, blue from 4 on.
 struct ShowMipLevel
 {
     sampler2D mainTex;
@@ -48,8 +48,7 @@ struct ShowMipLevel
     float4 operator()(Interpolators i) const
     {
         const Float level = calculateLevelOfDetail(mainTex, i.uv);
-        const auto ramp = [level](float peak, float flat) { return saturate(1.0f + flat - abs(level - peak)); };
-        return float4(ramp(0, 1) + ramp(6, 0), ramp(2, 1), ramp(4, 1), 1);
+        return float4(saturate(2.0f - level), saturate(level) - saturate(level - 3.0f), saturate(level - 2.0f), 1);
     }
 };
 
@@ -60,7 +59,7 @@ Stage basics_04_texture()
     return {.title = "Texture",
             .section = "part 3",
             .news = "From left to right: nearest, bilinear, trilinear, anisotropic 16x, and the mip level as a colour.",
-            .properties = {{"mainTex_ST", {40, 40, 0, 0}, -256.0f, 256.0f, 4, "tiling in x and y, offset in z and w"},
+            .properties = {{"mainTex_ST", {24, 24, 0, 0}, -256.0f, 256.0f, 4, "tiling in x and y, offset in z and w"},
                            {"maxAnisotropy", glm::vec4(16.0f), 1.0f, 16.0f, 1, "samples along the longer axis, at most"}},
             .inputs = {.mesh = "quad", .albedo = "marble-albedo.png", .height = "", .normal = "", .detail = ""},
             .camera = {.position = {0.0f, 0.35f, -5.0f}, .target = {0.0f, -0.15f, -3.0f}, .nearPlane = 0.1f, .farPlane = 1000.0f},

@@ -113,8 +113,8 @@ std::vector<Property> litProperties(std::vector<Property> more)
         {"mainTex_ST", {1, 1, 0, 0}, -16.0f, 16.0f, 4, "tiling in x and y, offset in z and w"},
         {"metallic", glm::vec4(0.0f), 0.0f, 1.0f, 1, "0 dielectric, 1 metal"},
         {"smoothness", glm::vec4(0.1f), 0.0f, 1.0f, 1, "0 matte, 1 polished"},
-        {"lightPitch", glm::vec4(50.0f), -180.0f, 180.0f, 1, "the light's rotation about X, degrees"},
-        {"lightYaw", glm::vec4(-30.0f), -180.0f, 180.0f, 1, "the light's rotation about Y, degrees"},
+        {"lightPitch", glm::vec4(35.0f), -180.0f, 180.0f, 1, "the light's rotation about X, degrees"},
+        {"lightYaw", glm::vec4(-20.0f), -180.0f, 180.0f, 1, "the light's rotation about Y, degrees"},
     };
     all.insert(all.end(), more.begin(), more.end());
     return all;
@@ -122,7 +122,7 @@ std::vector<Property> litProperties(std::vector<Property> more)
 
 Property bumpScaleProperty()
 {
-    return {"bumpScale", glm::vec4(1.0f), -32.0f, 32.0f, 1, "texels that the height map's whole range is high"};
+    return {"bumpScale", glm::vec4(5.0f), -32.0f, 32.0f, 1, "texels that the height map's whole range is high"};
 }
 
 }  // namespace relief::samples

@@ -1,0 +1,156 @@
+// Filters: from a place on a texture and a level of detail to a colour, for one texel format. The common case, every
+// lane on one mip level, goes straight through; a block that spans several levels runs once per level.
+//
+// All of this is inlined into two functions per format (finestIn and mipChainIn in sampler.cpp): a call in between would
+// move every register through memory.
+#pragma once
+
+#include <bit>
+
+#include "lanes/active.h"
+#include "texture/fetch.h"
+#include "texture/sampler.h"
+
+namespace relief {
+
+// Levels of detail are fixed point with 8 bits of fraction, D3D's least (7.18.10).
+inline constexpr int kLodBits = 8;
+inline constexpr int kLodOne = 1 << kLodBits;
+
+// Where to sample, after range reduction: the same for every level.
+struct Place
+{
+    const sampler2D& sampler;
+    const Texture& texture;
+    Float u, v;
+};
+
+inline Place placeOf(const sampler2D& s, const Texture& texture, Float u, Float v)
+{
+    return {s, texture, reduceRange(s.u, u), reduceRange(s.v, v)};
+}
+
+inline bool hasBorder(const sampler2D& s) { return s.u == AddressMode::border || s.v == AddressMode::border; }
+
+// The lanes that results are wanted for. A block without any still gets some values.
+inline unsigned wantedLanes() { return activeLanes != 0 ? activeLanes : 1u; }
+
+// The texels that a bilinear sample lies between, on one level: positions and weights along both axes.
+struct Pairs
+{
+    Int x, y;
+    Float fx, fy;
+};
+
+[[gnu::always_inline]] inline Pairs pairsOn(const Place& place, const MipLevel& level)
+{
+    const Int x = pairPosition(place.sampler.u, place.u, level.width(), level.widthInFloat());
+    const Int y = pairPosition(place.sampler.v, place.v, level.height(), level.heightInFloat());
+    constexpr float one = 1.0f / kSubtexels;
+    return {x >> kSubtexelBits, y >> kSubtexelBits, Float(x & kSubtexelMask) * one, Float(y & kSubtexelMask) * one};
+}
+
+template <class Fetch>
+[[gnu::always_inline]] inline float4 mixEach(const float4& a, const float4& b, Float t)
+{
+    return {Fetch::mix(a.x, b.x, t), Fetch::mix(a.y, b.y, t), Fetch::mix(a.z, b.z, t), Fetch::mix(a.w, b.w, t)};
+}
+
+// --- with a border: one texel at a time, rare and simple ---
+
+// A texel by its position (see address.h), or the border's colour where an axis in border mode leaves the texture.
+template <class Fetch>
+float4 texelOrBorder(const sampler2D& s, const MipLevel& level, Int x, Int y)
+{
+    Mask outside = false;
+    if (s.u == AddressMode::border) outside |= (x < 1) | (x > level.width());
+    if (s.v == AddressMode::border) outside |= (y < 1) | (y > level.height());
+    const Int column = clamp(x, 0, level.width() + 1), row = clamp(y, 0, level.height() + 1);
+    const float4 texel = Fetch::nearest(level, row * level.rowTexels() + column);
+    float4 result;
+    for (int c = 0; c < 4; ++c) result[c] = select(outside, Float(s.borderColor[c] * Fetch::kOne[c]), texel[c]);
+    return result;
+}
+
+template <class Fetch>
+[[gnu::noinline]] float4 bilinearWithBorder(const sampler2D& s, const MipLevel& level, const Pairs& at)
+{
+    const float4 lowerLeft = texelOrBorder<Fetch>(s, level, at.x, at.y);
+    const float4 lowerRight = texelOrBorder<Fetch>(s, level, at.x + 1, at.y);
+    const float4 upperLeft = texelOrBorder<Fetch>(s, level, at.x, at.y + 1);
+    const float4 upperRight = texelOrBorder<Fetch>(s, level, at.x + 1, at.y + 1);
+    return mixEach<Fetch>(mixEach<Fetch>(lowerLeft, lowerRight, at.fx), mixEach<Fetch>(upperLeft, upperRight, at.fx),
+                          at.fy);
+}
+
+// --- on one level ---
+
+template <class Fetch>
+[[gnu::always_inline]] inline float4 nearestOn(const Place& place, const MipLevel& level)
+{
+    const Int x = nearestPosition(place.sampler.u, place.u, level.width(), level.widthInFloat());
+    const Int y = nearestPosition(place.sampler.v, place.v, level.height(), level.heightInFloat());
+    if (hasBorder(place.sampler)) [[unlikely]]
+        return texelOrBorder<Fetch>(place.sampler, level, x, y);
+    return Fetch::nearest(level, y * level.rowTexels() + x);
+}
+
+template <class Fetch>
+[[gnu::always_inline]] inline float4 bilinearOn(const Place& place, const MipLevel& level, const Pairs& at)
+{
+    if (hasBorder(place.sampler)) [[unlikely]]
+        return bilinearWithBorder<Fetch>(place.sampler, level, at);
+    return Fetch::bilinear(level, at.y * level.rowTexels() + at.x, at.fx, at.fy);
+}
+
+template <class Fetch>
+[[gnu::always_inline]] inline float4 sampleLevel(const Place& place, const MipLevel& level)
+{
+    if (place.sampler.filter == Filter::nearest) return nearestOn<Fetch>(place, level);
+    return bilinearOn<Fetch>(place, level, pairsOn(place, level));
+}
+
+// --- on several levels ---
+
+// Level k for all lanes, and with the trilinear filter the part of level k + 1 that `fraction` (0..255) says; `lanes`
+// are those that the result is for. Both levels' texels are located before the first is fetched: the processor has
+// something to do while the first addresses are on their way through memory.
+template <class Fetch>
+[[gnu::always_inline]] inline float4 sampleLevels(const Place& place, int k, Int fraction, unsigned lanes)
+{
+    const MipLevel& finer = place.texture.level(k);
+    if (place.sampler.filter != Filter::trilinear || ((fraction != 0).bits() & lanes) == 0) {
+        return sampleLevel<Fetch>(place, finer);
+    }
+    const MipLevel& coarser = place.texture.level(k + 1);
+    const Pairs onFiner = pairsOn(place, finer), onCoarser = pairsOn(place, coarser);
+    const float4 a = bilinearOn<Fetch>(place, finer, onFiner);
+    const float4 b = bilinearOn<Fetch>(place, coarser, onCoarser);
+    return mixEach<Fetch>(a, b, Float(fraction) * (1.0f / kLodOne));
+}
+
+// Every lane on its own level, `lod` in 0..levels - 1 with kLodBits of fraction. One round per distinct level.
+template <class Fetch>
+[[gnu::always_inline]] inline float4 sampleEachLevel(const Place& place, Int lod)
+{
+    const bool trilinear = place.sampler.filter == Filter::trilinear;
+    const Int level = (trilinear ? lod : lod + kLodOne / 2) >> kLodBits;
+    const Int fraction = lod & (kLodOne - 1);
+    std::int32_t levels[kLanes];
+    level.store(levels);
+
+    unsigned waiting = wantedLanes();
+    Mask done = false;
+    float4 result(Float(0.0f));
+    do {
+        const int k = levels[std::countr_zero(waiting)];
+        const Mask here = level == k;
+        const float4 colour = sampleLevels<Fetch>(place, k, fraction, here.bits() & waiting);
+        for (int c = 0; c < 4; ++c) result[c] = select(done, result[c], colour[c]);
+        done |= here;
+        waiting &= ~here.bits();
+    } while (waiting != 0);
+    return result;
+}
+
+}  // namespace relief

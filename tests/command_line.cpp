@@ -1,0 +1,254 @@
+// The program as a user meets it: what it prints, and that bad input gives one line on stderr, exit code 2 and no file.
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "common/stage.h"
+#include "temporary_folder.h"
+#include "texture/image.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome
+{
+    int code;
+    std::string out, err;
+};
+
+std::string contents(const fs::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+// Runs the program in `folder`.
+Outcome run(const fs::path& folder, const std::string& arguments, const std::string& environment = "")
+{
+    const std::string command = "cd '" + folder.string() + "' && " + environment + " '" RELIEF_PROGRAM "' " + arguments +
+                                " >out.txt 2>err.txt";
+    const int status = std::system(command.c_str());
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out.txt"), contents(folder / "err.txt")};
+    fs::remove(folder / "out.txt");
+    fs::remove(folder / "err.txt");
+    return outcome;
+}
+
+// One line, exit code 2, the words in it, and no new file in the folder.
+void checkRefused(const fs::path& folder, const std::string& arguments, const std::vector<std::string>& words,
+                  const std::string& environment = "")
+{
+    const auto count = [&] { return std::distance(fs::recursive_directory_iterator(folder), {}); };
+    const auto before = count();
+    const Outcome outcome = run(folder, arguments, environment);
+    CAPTURE(arguments);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    for (const std::string& word : words) {
+        CAPTURE(word);
+        CHECK(outcome.err.find(word) != std::string::npos);
+    }
+    CHECK(count() == before);
+}
+
+void write(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+
+// A PNG's first bytes: signature and header chunk with this size (and a checksum that no reader gets to).
+std::string pngHeader(std::uint32_t width, std::uint32_t height)
+{
+    std::string bytes = "\x89PNG\r\n\x1a\n";
+    const auto big = [&bytes](std::uint32_t n) {
+        for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<char>(n >> shift & 255));
+    };
+    big(13);
+    bytes += "IHDR";
+    big(width);
+    big(height);
+    bytes += std::string("\x08\x06\x00\x00\x00", 5);
+    big(0);
+    return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("command line: help at every level, and the list of stages")
+{
+    const TemporaryFolder folder;
+    CHECK(run(folder.path, "").out.find("gallery") != std::string::npos);
+    CHECK(run(folder.path, "--help").code == 0);
+    for (const std::string command : {"list", "render", "gallery", "view", "hash", "explain", "bench"}) {
+        const Outcome help = run(folder.path, command + " --help");
+        CAPTURE(command);
+        CHECK(help.code == 0);
+        CHECK(help.out.find("Usage") != std::string::npos);
+    }
+    const nlohmann::json list = nlohmann::json::parse(run(folder.path, "list --json").out);
+    REQUIRE(list.size() == relief::samples::allStages().size());
+    for (const auto& stage : list) {
+        for (const char* key : {"id", "stem", "title", "tutorial", "section", "properties"}) CHECK(stage.contains(key));
+    }
+}
+
+TEST_CASE("command line: render writes the picture of the size asked for")
+{
+    const TemporaryFolder folder;
+    CHECK(run(folder.path, "render 1.9 --size 123x45 -o p.png --set bumpScale=2 --set tint=1,0.5,0.5 --threads 2").code == 0);
+    const auto image = relief::readImage(folder.path / "p.png");
+    REQUIRE(image);
+    CHECK(std::get<relief::Image8>(*image).width == 123);
+    CHECK(std::get<relief::Image8>(*image).height == 45);
+    CHECK(run(folder.path, "render rotated_tangent --size 16x16").code == 0);
+    CHECK(fs::exists(folder.path / "06_rotated_tangent.png"));
+}
+
+TEST_CASE("command line: unknown stage, property, value and option")
+{
+    const TemporaryFolder folder;
+    checkRefused(folder.path, "render 9.99", {"9.99", "relief list"});
+    checkRefused(folder.path, "render rotated", {"did you mean 1.06"});
+    checkRefused(folder.path, "render 1.06 --set bumpyness=1", {"bumpyness", "bumpScale"});
+    checkRefused(folder.path, "render 1.06 --set bumpScale", {"name=value"});
+    checkRefused(folder.path, "render 1.06 --set bumpScale=high", {"high", "not a number"});
+    checkRefused(folder.path, "render 1.06 --set bumpScale=nan", {"not a number"});
+    checkRefused(folder.path, "render 1.06 --set bumpScale=1,2", {"not a number"});
+    checkRefused(folder.path, "render 1.06 --set bumpScale=99", {"99", "-32 to 32"});
+    checkRefused(folder.path, "render 1.06 --set tint=1,2,x", {"tint"});
+    checkRefused(folder.path, "render 1.06 --colour red", {"--colour"});
+    checkRefused(folder.path, "render", {"stage"});
+    checkRefused(folder.path, "paint 1.06", {"paint"});
+    checkRefused(folder.path, "render 1.06 --threads -1", {"threads"});
+    checkRefused(folder.path, "bench --benchmark_filtre=x", {"benchmark_filtre"});
+}
+
+TEST_CASE("command line: sizes")
+{
+    const TemporaryFolder folder;
+    for (const std::string size : {"0x0", "1000000x1000000", "10", "10x", "x10", "-5x10", "10x10x10", "axb", "99999999999x1"}) {
+        checkRefused(folder.path, "render 1.06 --size " + size, {size, "WIDTHxHEIGHT"});
+    }
+    checkRefused(folder.path, "hash 1.06 --size 0x0", {"0x0"});
+    checkRefused(folder.path, "explain 1.06 --size 0x0", {"0x0"});
+}
+
+TEST_CASE("command line: pictures that are none")
+{
+    const TemporaryFolder folder;
+    write(folder.path / "empty.png", "");
+    write(folder.path / "text.png", "this is no picture\n");
+    write(folder.path / "huge.png", pngHeader(60000, 60000));
+    const std::string whole = contents(fs::path(RELIEF_SOURCE_FOLDER) / "assets/marble-heights.png");
+    write(folder.path / "truncated.png", whole.substr(0, whole.size() / 2));
+    checkRefused(folder.path, "render 1.09 --height empty.png", {"empty.png"});
+    checkRefused(folder.path, "render 1.09 --height text.png", {"text.png"});
+    checkRefused(folder.path, "render 1.09 --height huge.png", {"huge.png", "60000x60000"});
+    checkRefused(folder.path, "render 1.09 --height truncated.png", {"truncated.png"});
+    checkRefused(folder.path, "render 1.09 --height missing.png", {"missing.png"});
+    checkRefused(folder.path, "render 1.09 --height .", {"."});
+    checkRefused(folder.path, "render 1.01 --height text.png", {"reads no height"});
+    checkRefused(folder.path, "render 0.01 --mesh x.obj", {"x.obj"});
+}
+
+TEST_CASE("command line: meshes that are none")
+{
+    const TemporaryFolder folder;
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    write(folder.path / "range.obj", corners + "f 1 2 4\n");
+    write(folder.path / "relative.obj", corners + "f -1 -2 -4\n");
+    write(folder.path / "zero.obj", corners + "f 0 1 2\n");
+    write(folder.path / "nofaces.obj", corners);
+    write(folder.path / "nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write(folder.path / "empty.obj", "");
+    for (const std::string name : {"range", "relative", "zero", "nofaces", "nan", "empty", "missing"}) {
+        checkRefused(folder.path, "render 1.01 --mesh " + name + ".obj", {name + ".obj"});
+    }
+}
+
+TEST_CASE("command line: folders that cannot be written to")
+{
+    const TemporaryFolder folder;
+    checkRefused(folder.path, "render 1.01 --size 8x8 -o nowhere/p.png", {"nowhere"});
+    if (geteuid() == 0) {
+        MESSAGE("runs as root, for whom no folder is read-only: /proc stands in");
+        checkRefused(folder.path, "render 1.01 --size 8x8 -o /proc/p.png", {"/proc"});
+        checkRefused(folder.path, "gallery --out /proc/gallery", {"/proc/gallery"});
+        return;
+    }
+    fs::create_directory(folder.path / "locked");
+    fs::permissions(folder.path / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+    checkRefused(folder.path, "render 1.01 --size 8x8 -o locked/p.png", {"locked"});
+    checkRefused(folder.path, "gallery --out locked/gallery", {"locked"});
+    fs::permissions(folder.path / "locked", fs::perms::owner_all);
+}
+
+TEST_CASE("command line: a missing asset is named with the path that was tried")
+{
+    const TemporaryFolder folder;
+    checkRefused(folder.path, "render 1.09", {"/no/such/folder/marble-heights.png"}, "RELIEF_ASSETS=/no/such/folder");
+}
+
+TEST_CASE("command line: real files of Debian's glmark2-data")
+{
+    const fs::path data = "/usr/share/glmark2";
+    if (!fs::exists(data)) {
+        MESSAGE("glmark2-data is not installed: skipped");
+        return;
+    }
+    const TemporaryFolder folder;
+    CHECK(run(folder.path, "render 1.09 --size 64x36 -o a.png --height /usr/share/glmark2/textures/asteroid-height-map.png").code == 0);
+    CHECK(run(folder.path, "render 1.01 --size 64x36 -o b.png --mesh /usr/share/glmark2/models/bunny.obj").code == 0);
+    CHECK(fs::file_size(folder.path / "a.png") > 1000);
+    CHECK(fs::file_size(folder.path / "b.png") > 1000);
+}
+
+TEST_CASE("command line: the window opens, shows frames and closes under SDL's dummy driver")
+{
+    const TemporaryFolder folder;
+    const Outcome outcome = run(folder.path, "view 1.09 --size 64x36 --frames 3", "SDL_VIDEODRIVER=dummy");
+    const bool noWindow = outcome.err.find("SDL2 was not found") != std::string::npos;
+    if (noWindow) {
+        CHECK(outcome.code == 2);
+        MESSAGE("built without SDL2");
+    } else {
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 0);
+    }
+    checkRefused(folder.path, "view 9.99", {"9.99"});
+}
+
+TEST_CASE("command line: explain counts, hash does not depend on threads or tiles")
+{
+    const TemporaryFolder folder;
+    const nlohmann::json counts = nlohmann::json::parse(run(folder.path, "explain 1.01 --json --size 96x54").out)["counts"];
+    CHECK(counts["triangles submitted"] == 2);
+    CHECK(counts["rasterised"] == 2);
+    CHECK(counts["pixels shaded"].get<int>() > 500);
+    CHECK(counts["components used"].get<int>() > 0);
+    const std::string one = run(folder.path, "hash 1.09 --size 96x54 --threads 1 --tile 32").out;
+    CHECK(one.size() > 16);
+    CHECK(run(folder.path, "hash 1.09 --size 96x54 --threads 3 --tile 128").out == one);
+}
+
+TEST_CASE("command line: the gallery has every picture and a page that names them")
+{
+    const TemporaryFolder folder;
+    REQUIRE(run(folder.path, "gallery --out g").code == 0);
+    const std::string page = contents(folder.path / "g/index.html");
+    for (const auto& stage : relief::samples::allStages()) {
+        CHECK(fs::exists(folder.path / "g" / stage.folder / (stage.stem + ".png")));
+        CHECK(page.find(stage.title) != std::string::npos);
+        CHECK(page.find(stage.news) != std::string::npos);
+    }
+}

@@ -1,0 +1,152 @@
+// The documents and the tree: every stage has its page and its golden, every page its stage, every relative link leads
+// somewhere, and the folders of the engine depend downwards only.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "common/stage.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using relief::samples::allStages;
+using relief::samples::Stage;
+
+const fs::path kSource = RELIEF_SOURCE_FOLDER;
+
+std::string contents(const fs::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+// Files of the project with this ending; not what was built.
+std::vector<fs::path> filesEndingIn(const fs::path& folder, const std::string& ending)
+{
+    std::vector<fs::path> found;
+    for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
+        const std::string name = it->path().filename().string();
+        if (it->is_directory() && (name == "build" || name == "gallery" || name.starts_with("."))) {
+            it.disable_recursion_pending();
+        }
+        if (it->is_regular_file() && name.ends_with(ending)) found.push_back(it->path());
+    }
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("documents: every stage has a page of its stem, with its picture, and a golden")
+{
+    CHECK(allStages().size() >= 14);
+    for (const Stage& stage : allStages()) {
+        CAPTURE(stage.stem);
+        const fs::path page = kSource / "docs" / stage.folder / (stage.stem + ".md");
+        REQUIRE(fs::exists(page));
+        const std::string text = contents(page);
+        CHECK(text.find("# " + stage.id + " " + stage.title) != std::string::npos);
+        CHECK(text.find(stage.folder + "/" + stage.stem + ".png") != std::string::npos);
+        CHECK(fs::exists(kSource / "tests/golden" / stage.folder / (stage.stem + ".png")));
+    }
+}
+
+TEST_CASE("documents: every page, golden and stage source belongs to a registered stage")
+{
+    std::set<std::string> known;
+    for (const Stage& stage : allStages()) known.insert(stage.folder + "/" + stage.stem);
+    std::set<std::string> folders;
+    for (const Stage& stage : allStages()) folders.insert(stage.folder);
+    for (const std::string& folder : folders) {
+        for (const auto& [place, ending] : std::map<std::string, std::string>{
+                 {"docs", ".md"}, {"tests/golden", ".png"}, {"samples", ".cpp"}}) {
+            for (const fs::path& path : filesEndingIn(kSource / place / folder, ending)) {
+                CAPTURE(path);
+                CHECK(known.count(folder + "/" + path.stem().string()) == 1);
+            }
+        }
+    }
+}
+
+TEST_CASE("documents: a stage is at most 110 lines, and differs from the one before it by little")
+{
+    for (const Stage& stage : allStages()) {
+        CAPTURE(stage.stem);
+        const std::string text = contents(kSource / "samples" / stage.folder / (stage.stem + ".cpp"));
+        CHECK(std::count(text.begin(), text.end(), '\n') <= 110);
+        CHECK(text.starts_with("// " + stage.id + " " + stage.title));
+        CHECK(text.find("\n// New: ") != std::string::npos);
+        CHECK(text.find("\n// Was: ") != std::string::npos);
+    }
+}
+
+TEST_CASE("documents: every relative link resolves")
+{
+    const std::regex link(R"(\]\(([^)\s]+)\)|(?:src|href)=\"([^\"]+)\")");
+    int checked = 0;
+    for (const fs::path& page : filesEndingIn(kSource, ".md")) {
+        const std::string text = contents(page);
+        for (auto it = std::sregex_iterator(text.begin(), text.end(), link); it != std::sregex_iterator(); ++it) {
+            std::string target = (*it)[1].matched ? (*it)[1].str() : (*it)[2].str();
+            if (target.starts_with("http") || target.starts_with("#") || target.starts_with("mailto:")) continue;
+            target = target.substr(0, target.find('#'));
+            CAPTURE(page);
+            CAPTURE(target);
+            CHECK(fs::exists(page.parent_path() / target));
+            ++checked;
+        }
+    }
+    CHECK(checked > 30);
+}
+
+TEST_CASE("documents: the engine's folders include downwards only")
+{
+    const std::map<std::string, std::set<std::string>> below = {
+        {"lanes", {}},
+        {"hlsl", {"lanes"}},
+        {"texture", {"lanes", "hlsl"}},
+        {"mesh", {"lanes"}},
+        {"shading", {"lanes", "hlsl"}},
+        {"pipeline", {"lanes", "hlsl", "texture", "mesh"}},
+        {"check", {"lanes", "hlsl", "texture", "mesh", "pipeline"}},
+    };
+    const std::regex include(R"re(#include "([a-z_]+)/)re");
+    int checked = 0;
+    for (const auto& [folder, allowed] : below) {
+        for (const std::string ending : {".h", ".cpp"}) {
+            for (const fs::path& path : filesEndingIn(kSource / "engine" / folder, ending)) {
+                const std::string text = contents(path);
+                for (auto it = std::sregex_iterator(text.begin(), text.end(), include); it != std::sregex_iterator(); ++it) {
+                    const std::string used = (*it)[1].str();
+                    CAPTURE(path);
+                    CAPTURE(used);
+                    CHECK((used == folder || allowed.count(used) == 1));
+                    ++checked;
+                }
+            }
+        }
+    }
+    CHECK(checked > 50);
+}
+
+TEST_CASE("documents: nothing in the engine prints, exits or throws")
+{
+    const std::regex forbidden(R"(\b(printf|std::cout|std::cerr|exit\(|abort\(|throw )\b)");
+    for (const std::string ending : {".h", ".cpp"}) {
+        for (const fs::path& path : filesEndingIn(kSource / "engine", ending)) {
+            const std::string text = contents(path);
+            std::smatch match;
+            std::string code = std::regex_replace(text, std::regex("//[^\n]*"), "");
+            code = std::regex_replace(code, std::regex("snprintf"), "");
+            CAPTURE(path);
+            CHECK_FALSE(std::regex_search(code, match, forbidden));
+        }
+    }
+}

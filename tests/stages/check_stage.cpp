@@ -1,0 +1,65 @@
+// One stage against its golden and its hash: `check_stage golden 1.06`, `check_stage hash 1.06`. The picture must be the
+// same byte for byte; the float colours and depths must have the committed hash for every number of threads and every
+// tile size. The number of lanes, the compiler and the build type vary with the build: each is held to the same hash.
+#include <cstdio>
+#include <fstream>
+
+#include "golden_stage.h"
+
+namespace {
+
+using namespace relief;
+using namespace relief::samples;
+
+Expected<std::string> expectedHash(const Stage& stage)
+{
+    std::ifstream file(hashesPath());
+    std::string hash, id, stem;
+    while (file >> hash >> id >> stem) {
+        if (id == stage.id) return hash;
+    }
+    return fail(hashesPath().string() + ": has no hash of " + stage.id + "; update_goldens");
+}
+
+Expected<void> checkPicture(const Stage& stage)
+{
+    const Expected<Framebuffer> target = renderForGolden(stage, ColorFormat::rgba8Srgb);
+    if (!target) return tl::unexpected(target.error());
+    return checkGolden(*target, goldenPath(stage), std::filesystem::current_path() / "golden_failures");
+}
+
+Expected<void> checkHash(const Stage& stage)
+{
+    const Expected<std::string> expected = expectedHash(stage);
+    if (!expected) return tl::unexpected(expected.error());
+    for (const int threads : {1, 2, 3, 8}) {
+        for (const int tileSize : {32, 64, 128}) {
+            const Expected<Framebuffer> target =
+                renderForGolden(stage, ColorFormat::rgba32f, {.threads = threads, .tileSize = tileSize});
+            if (!target) return tl::unexpected(target.error());
+            const std::string hash = hexadecimal(hashOf(*target));
+            if (hash == *expected) continue;
+            return fail(stage.id + ": hash " + hash + " with " + std::to_string(threads) + " threads, tiles of " +
+                        std::to_string(tileSize) + " px and " + std::to_string(kLanes) + " lanes; should be " + *expected);
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    const std::string what = argc == 3 ? argv[1] : "";
+    if (what != "golden" && what != "hash") {
+        std::fprintf(stderr, "usage: check_stage golden|hash STAGE\n");
+        return 2;
+    }
+    const Expected<const Stage*> stage = findStage(argv[2]);
+    const Expected<void> result = !stage             ? Expected<void>(tl::unexpected(stage.error()))
+                                  : what == "golden" ? checkPicture(**stage)
+                                                     : checkHash(**stage);
+    if (result) return 0;
+    std::fprintf(stderr, "%s\n", result.error().message.c_str());
+    return 1;
+}
