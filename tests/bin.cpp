@@ -79,8 +79,8 @@ TEST_CASE("bin: tiles get exactly the triangles that no edge keeps out, in order
                     kept = kept && some;
                 }
                 const Rectangle box = sampleBounds(chunk.triangles[i], draw.bounds);
-                const bool alone = (box.x0 / tileSize == (box.x1 - 1) / tileSize) &&
-                                   (box.y0 / tileSize == (box.y1 - 1) / tileSize);
+                const bool alone =
+                    (box.x0 / tileSize == (box.x1 - 1) / tileSize) && (box.y0 / tileSize == (box.y1 - 1) / tileSize);
                 needless += !kept && !alone;
             }
         }

@@ -62,7 +62,8 @@ TEST_CASE("clip: the polygon is planar to the triangle, inside all planes, and k
     for (int trial = 0; trial < trials(50000); ++trial) {
         glm::vec4 corners[3];
         for (glm::vec4& c : corners) c = randomClipPosition(random, random.chance(3) ? 100.0f : 3.0f);
-        const ClipLimits limits = {random.chance(2) ? 1.0f : 0.001f, random.chance(2) ? 1.0f : 0.001f, random.chance(2)};
+        const ClipLimits limits = {random.chance(2) ? 1.0f : 0.001f, random.chance(2) ? 1.0f : 0.001f,
+                                   random.chance(2)};
         ClipVertex polygon[kMaxClippedVertices];
         const int count = clipTriangle(corners, limits, polygon);
         wrong += count != 0 && count < 3;
@@ -96,11 +97,11 @@ TEST_CASE("clip: the polygon is planar to the triangle, inside all planes, and k
 TEST_CASE("clip: what is inside keeps its vertices, planes included (S-204, S-208)")
 {
     const glm::vec4 cases[][3] = {
-        {{-1, -1, 0, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}},      // all on near
-        {{-1, -1, 1, 1}, {1, -1, 1, 1}, {0, 1, 1, 1}},      // all on far
-        {{-1, -1, 0, 1}, {1, -1, 1, 1}, {0, 1, 0.5f, 1}},   // one on each
-        {{-4, 0, 0, 4}, {4, 4, 0, 4}, {4, -4, 4, 4}},       // w = 4, on the sides
-        {{-1, -1, 0, 1}, {-1, 1, 0, 1}, {-1, 1, 1, 1}},     // all on the left plane
+        {{-1, -1, 0, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}},     // all on near
+        {{-1, -1, 1, 1}, {1, -1, 1, 1}, {0, 1, 1, 1}},     // all on far
+        {{-1, -1, 0, 1}, {1, -1, 1, 1}, {0, 1, 0.5f, 1}},  // one on each
+        {{-4, 0, 0, 4}, {4, 4, 0, 4}, {4, -4, 4, 4}},      // w = 4, on the sides
+        {{-1, -1, 0, 1}, {-1, 1, 0, 1}, {-1, 1, 1, 1}},    // all on the left plane
     };
     for (const auto& corners : cases) {
         ClipVertex polygon[kMaxClippedVertices];
@@ -145,9 +146,10 @@ TEST_CASE("clip: cutting next to a corner stays within the edge (S-201)")
         // One corner a hair inside of the near plane, from the smallest subnormal up.
         const int exponent = random.between(-149, -1);
         const float hair = std::ldexp(1.0f, exponent);
-        const glm::vec4 corners[3] = {{random.real(-1, 1), random.real(-1, 1), hair, random.real(0.5f, 2)},
-                                      {random.real(-1, 1), random.real(-1, 1), -random.real(0.1f, 2), random.real(0.5f, 2)},
-                                      {random.real(-1, 1), random.real(-1, 1), -random.real(0.1f, 2), random.real(0.5f, 2)}};
+        const glm::vec4 corners[3] = {
+            {random.real(-1, 1), random.real(-1, 1), hair, random.real(0.5f, 2)},
+            {random.real(-1, 1), random.real(-1, 1), -random.real(0.1f, 2), random.real(0.5f, 2)},
+            {random.real(-1, 1), random.real(-1, 1), -random.real(0.1f, 2), random.real(0.5f, 2)}};
         ClipVertex polygon[kMaxClippedVertices];
         const int count = clipTriangle(corners, {0.001f, 0.001f, true}, polygon);
         wrong += count != 3;
@@ -214,7 +216,8 @@ TEST_CASE("clip: a triangle through all six planes with the frustum inside cover
     int most = 0;
     for (int trial = 0; trial < trials(200000); ++trial) {
         glm::vec4 corners[3];
-        for (glm::vec4& p : corners) p = {random.real(-4, 4), random.real(-4, 4), random.real(-4, 4), random.real(-1, 3)};
+        for (glm::vec4& p : corners)
+            p = {random.real(-4, 4), random.real(-4, 4), random.real(-4, 4), random.real(-1, 3)};
         ClipVertex polygon[kMaxClippedVertices];
         most = std::max(most, clipTriangle(corners, {1.0f, 1.0f, true}, polygon));
     }
@@ -357,8 +360,9 @@ TEST_CASE("clip: no mirrored ghost from behind the eye, nothing from a subnormal
             const float x = std::fabs(w) > 0 ? std::fabs(w) * 0.5f : 0.5f;
             const Mesh mesh = meshOf({-x, -x, 0, w}, {0, x, 0, w}, {x, -x, 0, w});
             const Statistics statistics =
-                depthClip ? drawClip(target, mesh)
-                          : drawClip<RenderState{Compare::always, false, false, Cull::none, Blend::additive}>(target, mesh);
+                depthClip
+                    ? drawClip(target, mesh)
+                    : drawClip<RenderState{Compare::always, false, false, Cull::none, Blend::additive}>(target, mesh);
             CHECK(drawnPixels(target) == 0);
             CHECK(statistics.outside == 1);
             checkInvariants(target, statistics);
@@ -418,11 +422,14 @@ TEST_CASE("clip: inside of the guard band nothing is clipped, beyond it somethin
 {
     Framebuffer target = makeTarget(64, 64);
     const auto clippedAt = [&](float pixels) {
-        return drawPixels(target, [&] {
-                   Mesh mesh;
-                   addTriangle(mesh, {{-pixels, 10, 0.5f, 1}}, {{pixels, 0, 0.5f, 1}}, {{30, pixels, 0.5f, 1}});
-                   return mesh;
-               }()).trianglesClipped;
+        return drawPixels(
+                   target,
+                   [&] {
+                       Mesh mesh;
+                       addTriangle(mesh, {{-pixels, 10, 0.5f, 1}}, {{pixels, 0, 0.5f, 1}}, {{30, pixels, 0.5f, 1}});
+                       return mesh;
+                   }())
+            .trianglesClipped;
     };
     CHECK(clippedAt(100.0f) == 0);
     CHECK(clippedAt(32000.0f) == 0);
@@ -477,7 +484,9 @@ TEST_CASE("clip: a mesh around the eye covers every pixel once (S-202, S-206, S-
                         t += random.real(-0.4f, 0.4f) / static_cast<float>(n);
                     }
                     const float r = (side & 1) != 0 ? 1.0f : -1.0f;
-                    const glm::vec3 p = side < 2 ? glm::vec3(r, s, t) : side < 4 ? glm::vec3(s, r, t) : glm::vec3(s, t, r);
+                    const glm::vec3 p = side < 2   ? glm::vec3(r, s, t)
+                                        : side < 4 ? glm::vec3(s, r, t)
+                                                   : glm::vec3(s, t, r);
                     points.push_back(toClip(p));
                 }
             }
@@ -529,8 +538,9 @@ TEST_CASE("clip: a mesh cut by the near plane in view has no holes and no double
             for (int i = 0; i <= n; ++i) {
                 const bool inner = i > 0 && i < n && j > 0 && j < n;
                 const float jitter = inner ? 0.4f / static_cast<float>(n) : 0.0f;
-                points.push_back(at(static_cast<float>(i) * 2 / static_cast<float>(n) - 1 + random.real(-jitter, jitter),
-                                    static_cast<float>(j) * 2 / static_cast<float>(n) - 1 + random.real(-jitter, jitter)));
+                points.push_back(
+                    at(static_cast<float>(i) * 2 / static_cast<float>(n) - 1 + random.real(-jitter, jitter),
+                       static_cast<float>(j) * 2 / static_cast<float>(n) - 1 + random.real(-jitter, jitter)));
             }
         }
         Mesh mesh;
@@ -628,7 +638,8 @@ TEST_CASE("clip: depth clipping off still clips behind the eye (S-207)")
     int wrong = 0;
     bool fine = true;
     for (int trial = 0; trial < trials(1500); ++trial) {
-        const glm::vec4 a = randomClipPosition(random, 3), b = randomClipPosition(random, 3), c = randomClipPosition(random, 30);
+        const glm::vec4 a = randomClipPosition(random, 3), b = randomClipPosition(random, 3),
+                        c = randomClipPosition(random, 30);
         const Statistics statistics = drawClip<kClamp>(target, meshOf(a, b, c));
         wrong += wrongPixels(target, HomogeneousTriangle(a, b, c, {0, 0, 40, 30}), false);
         fine = fine && addsUp(statistics) && allFinite(target);

@@ -34,8 +34,8 @@ int encodedCode(float linear)
 // What a sweep over increasing floats found.
 struct Sweep
 {
-    double worstError = 0.0;   // of the 8-bit code against the exact curve, in codes
-    int codesThatFell = 0;     // a larger float with a smaller code
+    double worstError = 0.0;  // of the 8-bit code against the exact curve, in codes
+    int codesThatFell = 0;    // a larger float with a smaller code
     int lastCode = 0;
     float largestStepDown = 0.0f;  // of the encoded float
     float last = 0.0f;
@@ -51,7 +51,8 @@ struct Sweep
             lastCode = code;
             last = encoded[i];
         }
-        if (withReference) worstError = std::fmax(worstError, std::abs(lastCode - 255.0 * referenceEncode(linear[kLanes - 1])));
+        if (withReference)
+            worstError = std::fmax(worstError, std::abs(lastCode - 255.0 * referenceEncode(linear[kLanes - 1])));
     }
 };
 

@@ -51,7 +51,8 @@ TEST_CASE("edge function: an edge is top-left exactly in one of its two directio
     Random random(2);
     int wrong = 0;
     for (int trial = 0; trial < trials(20000); ++trial) {
-        const Point a = randomPoint(random), b = random.chance(4) ? Point{randomPoint(random).x, a.y} : randomPoint(random);
+        const Point a = randomPoint(random),
+                    b = random.chance(4) ? Point{randomPoint(random).x, a.y} : randomPoint(random);
         if (a == b) continue;
         wrong += EdgeFunction(a.x, a.y, b.x, b.y).isTopLeft() == EdgeFunction(b.x, b.y, a.x, a.y).isTopLeft();
     }
@@ -93,9 +94,8 @@ TEST_CASE("edge function: sampleBounds holds every covered pixel, and no row or 
     for (int trial = 0; trial < trials(20000); ++trial) {
         const Corners c = randomTriangle(random, 70, 40, kGuardBand);
         const Rectangle box = sampleBounds(clockwise(c), clip);
-        ExactTriangle(c).forEachPixel(clip, [&](int x, int y) {
-            outside += x < box.x0 || x >= box.x1 || y < box.y0 || y >= box.y1;
-        });
+        ExactTriangle(c).forEachPixel(
+            clip, [&](int x, int y) { outside += x < box.x0 || x >= box.x1 || y < box.y0 || y >= box.y1; });
         // By definition: centres x + 1/2 between the lowest and the highest corner, both included.
         const int lowX = std::min({c[0].x, c[1].x, c[2].x}), highX = std::max({c[0].x, c[1].x, c[2].x});
         const int lowY = std::min({c[0].y, c[1].y, c[2].y}), highY = std::max({c[0].y, c[1].y, c[2].y});

@@ -416,7 +416,8 @@ TEST_CASE("interpolate: derivatives of a linear value are its slope, at the tria
         wrong += statistics.invalidColors != 0;
         const ExactTriangle exact(c);
         const double area = std::fabs((double(c[1].x) - c[0].x) * (double(c[2].y) - c[0].y) -
-                                      (double(c[2].x) - c[0].x) * (double(c[1].y) - c[0].y)) / 65536;
+                                      (double(c[2].x) - c[0].x) * (double(c[1].y) - c[0].y)) /
+                            65536;
         if (area < 0.5) continue;  // corners rounded to floats have another slope
         exact.forEachPixel({0, 0, 40, 40}, [&](int x, int y) {
             const glm::vec4 v = pixel(target, x, y);
@@ -510,7 +511,8 @@ TEST_CASE("interpolate: moved by whole pixels, values and depth have the same bi
         for (int k = 0; k < 3; ++k) {
             const Point p = {random.between(0, 64 * 256), random.between(0, 64 * 256)};
             // w a power of two, so that no rounding happens before the pixel grid.
-            const float w = std::ldexp(1.0f, random.between(-3, 3)), z = static_cast<float>(random.between(0, 256)) / 256;
+            const float w = std::ldexp(1.0f, random.between(-3, 3)),
+                        z = static_cast<float>(random.between(0, 256)) / 256;
             v[k] = {pixelPosition(p, z, w), {random.real(-1, 1), random.real(-1, 1), random.real(-1, 1), 1}};
             m[k] = v[k];
             m[k].position = pixelPosition({p.x + dx * 256, p.y + dy * 256}, z, w);
@@ -522,7 +524,8 @@ TEST_CASE("interpolate: moved by whole pixels, values and depth have the same bi
         drawPixels<kDepthTested>(there, moved, Value{}, {1, sizes[random.between(0, 3)]});
         for (int y = 0; y < 64; ++y) {
             for (int x = 0; x < 64; ++x) {
-                const auto at = static_cast<std::size_t>(y * 128 + x), to = static_cast<std::size_t>((y + dy) * 128 + x + dx);
+                const auto at = static_cast<std::size_t>(y * 128 + x),
+                           to = static_cast<std::size_t>((y + dy) * 128 + x + dx);
                 wrong += here.color32f()[at] != there.color32f()[to] || here.depth()[at] != there.depth()[to];
                 drawn += here.color32f()[at].w != 0.0f;
             }

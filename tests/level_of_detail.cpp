@@ -9,9 +9,10 @@
 
 #include <doctest/doctest.h>
 
+#include "sampler_fixture.h"
 #include "texture/sampler.h"
 
-using namespace relief;
+using namespace sampler_fixture;
 
 namespace {
 
@@ -28,19 +29,7 @@ AnisotropicFootprint anisotropic(float xu, float xv, float yu, float yv, float l
     return anisotropicFootprint({Float(xu), Float(xv)}, {Float(yu), Float(yv)}, limit);
 }
 
-// Random numbers, the same on every run.
-struct Random
-{
-    std::uint32_t state = 1;
-    float operator()(float low, float high)
-    {
-        state = state * 1664525u + 1013904223u;
-        return low + (high - low) * static_cast<float>(state >> 8) / 16777216.0f;
-    }
-};
-
-// Texel x of level k of a square texture has the red value 10 k: what a sample shows is the level it came from.
-// Averaging would undo that, so this holds for level 0 only; levels are told apart by their size instead.
+// A square texture whose neighbouring texels differ, and so do its levels.
 Texture ramp(int side)
 {
     std::vector<float> pixels;
@@ -57,8 +46,7 @@ Texture ramp(int side)
 float levelFor(const sampler2D& s, float texelsPerPixel)
 {
     const float perPixel = texelsPerPixel / static_cast<float>(s.texture->width());
-    Float u;
-    for (int i = 0; i < kLanes; ++i) u.set(i, static_cast<float>(laneX(i)) * perPixel);
+    const Float u = perLane([=](int i) { return static_cast<float>(laneX(i)) * perPixel; });
     return calculateLevelOfDetail(s, {u, Float(0.0f)})[0];
 }
 
@@ -70,9 +58,9 @@ TEST_CASE("level_of_detail: isotropic levels of the reference table (T-06, A-27)
     {
         float xu, xv, yu, yv, level;
     };
-    const std::array rows = {Row{1, 0, 0, 1, 0.0f},         Row{4, 0, 0, 1, 2.0f},  Row{3, 4, -4, 3, 2.32193f},
-                             Row{2, 2, 2, 2, 1.5f},         Row{1, 0, 0.8f, 0.6f, 0.0f}, Row{16, 0, 0, 0.25f, 4.0f},
-                             Row{64, 0, 0, 1, 6.0f},        Row{0.5f, 0, 0, 0.5f, -1.0f}};
+    const std::array rows = {Row{1, 0, 0, 1, 0.0f},  Row{4, 0, 0, 1, 2.0f},       Row{3, 4, -4, 3, 2.32193f},
+                             Row{2, 2, 2, 2, 1.5f},  Row{1, 0, 0.8f, 0.6f, 0.0f}, Row{16, 0, 0, 0.25f, 4.0f},
+                             Row{64, 0, 0, 1, 6.0f}, Row{0.5f, 0, 0, 0.5f, -1.0f}};
     for (const Row& row : rows) {
         CHECK(isotropic(row.xu, row.xv, row.yu, row.yv) == doctest::Approx(row.level).epsilon(1e-5));
     }
@@ -119,19 +107,14 @@ TEST_CASE("level_of_detail: taps stay in 1..16 for any ratio, and lie along the 
 
 TEST_CASE("level_of_detail: a million random derivatives: never falls when one grows, and within bounds (S-507, S-508)")
 {
-    Random random;
+    Random random(1);
     int fell = 0, outside = 0;
     for (int block = 0; block < 1000000 / kLanes; ++block) {
-        Float partials[4], grown[4];
-        const int which = block % 4;
-        for (int i = 0; i < kLanes; ++i) {
-            const float scale = std::exp2(random(-10.0f, 10.0f));
-            for (int k = 0; k < 4; ++k) {
-                const float partial = random(-1.0f, 1.0f) * scale;
-                partials[k].set(i, partial);
-                grown[k].set(i, k == which ? partial * (1.0f + random(0.0f, 0.01f)) : partial);
-            }
-        }
+        const Float scale = perLane([&](int) { return std::exp2(random(-10.0f, 10.0f)); });
+        Float partials[4];
+        for (Float& partial : partials) partial = perLane([&](int) { return random(-1.0f, 1.0f); }) * scale;
+        Float grown[4] = {partials[0], partials[1], partials[2], partials[3]};
+        grown[block % 4] *= perLane([&](int) { return 1.0f + random(0.0f, 0.01f); });
         const Float level = isotropicLevel({partials[0], partials[1]}, {partials[2], partials[3]});
         const Float larger = isotropicLevel({grown[0], grown[1]}, {grown[2], grown[3]});
         fell += count(larger < level);
@@ -148,7 +131,7 @@ TEST_CASE("level_of_detail: no step back between any two neighbouring floats, ac
     float last = -kInfinity;
     int fell = 0;
     for (int mantissa = 0; mantissa < 1 << 24; mantissa += kLanes) {
-        Float square = asFloat(Int(0x3f800000 + mantissa) + laneIndex());
+        Float square = asFloat(Int(0x3f800000 + mantissa) + laneNumbers());
         const Float level = 0.5f * log2(square);
         fell += count(permuteQuad<1, 2, 3, 3>(level) < level) + (level[0] < last ? 1 : 0);
         last = level[kLanes - 1];
@@ -221,8 +204,7 @@ TEST_CASE("level_of_detail: a seam in uv reaches the smallest level, gradients g
 {
     const Texture texture = ramp(256);
     const sampler2D s{.texture = &texture};
-    Float u;
-    for (int i = 0; i < kLanes; ++i) u.set(i, (laneX(i) & 1) != 0 ? 0.005f : 0.995f);
+    const Float u = perLane([](int i) { return (laneX(i) & 1) != 0 ? 0.005f : 0.995f; });
     const float2 uv = {u, Float(0.5f)};
     CHECK(calculateLevelOfDetail(s, uv)[0] > 7.9f);
 
@@ -239,9 +221,8 @@ TEST_CASE("level_of_detail: a plane near the horizon is off by log2(1 + 1/D), as
     const sampler2D s{.texture = &texture};
     for (const int distance : {1, 2, 4, 8, 16, 32, 64, 128, 256}) {
         // v = c / D, D pixels from the horizon: the exact derivative is c / D^2, the quad's c / D - c / (D + 1).
-        Float v;
         const double c = 0.5 * distance * distance;
-        for (int i = 0; i < kLanes; ++i) v.set(i, static_cast<float>(c / (distance + (laneY(i) & 1))));
+        const Float v = perLane([=](int i) { return static_cast<float>(c / (distance + (laneY(i) & 1))); });
         const float level = calculateLevelOfDetailUnclamped(s, {Float(0.0f), v})[0];
         const double exact = std::log2(256.0 * c / (distance * distance));
         CHECK(std::abs(exact - level - std::log2(1.0 + 1.0 / distance)) < 1.0 / 256.0);
@@ -252,8 +233,7 @@ TEST_CASE("level_of_detail: coordinates as large as 1e7 give a finite level (S-5
 {
     const Texture texture = ramp(256);
     const sampler2D s{.texture = &texture};
-    Float u;
-    for (int i = 0; i < kLanes; ++i) u.set(i, 1e7f + static_cast<float>(laneX(i)));
+    const Float u = perLane([](int i) { return 1e7f + static_cast<float>(laneX(i)); });
     const float level = calculateLevelOfDetail(s, {u, u})[0];
     CHECK(level >= 0.0f);
     CHECK(level <= 8.0f);

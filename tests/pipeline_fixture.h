@@ -74,9 +74,10 @@ struct Point
 };
 using Corners = std::array<Point, 3>;
 
-// The fill rule as Direct3D words it (11.3, 3.4.2.1), written without looking at the winding: an edge divides the plane,
-// the third corner tells which side is inside, and a centre on the edge counts if the edge is a left one (the inside is
-// to its right) or a top one (horizontal, the inside below). Differences stay below 2^24, so 64 bits hold everything.
+// The fill rule as Direct3D words it (11.3, 3.4.2.1), written without looking at the winding: an edge divides the
+// plane, the third corner tells which side is inside, and a centre on the edge counts if the edge is a left one (the
+// inside is to its right) or a top one (horizontal, the inside below). Differences stay below 2^24, so 64 bits hold
+// everything.
 struct ExactEdge
 {
     std::int64_t stepX = 0, stepY = 0, constant = 0;  // > 0 right of the edge, or below it if it is horizontal
@@ -163,28 +164,37 @@ inline Corners randomTriangle(Random& random, int width, int height, int limit =
     };
     const Point p = anywhere();
     switch (random.between(0, 11)) {
-        case 0: return {p, near(p, 2), near(p, 2)};                            // next to nothing
-        case 1: return {p, near(p, 300), near(p, 300)};                        // about a pixel
-        case 2: return {p, near(p, 3000), near(p, 3000)};                      // some pixels
-        case 3: return {p, anywhere(), anywhere()};                            // medium
-        case 4: return {far(), far(), far()};                                  // huge
-        case 5: return {p, far(), far()};
-        case 6: {                                                              // slivers
+        case 0:
+            return {p, near(p, 2), near(p, 2)};  // next to nothing
+        case 1:
+            return {p, near(p, 300), near(p, 300)};  // about a pixel
+        case 2:
+            return {p, near(p, 3000), near(p, 3000)};  // some pixels
+        case 3:
+            return {p, anywhere(), anywhere()};  // medium
+        case 4:
+            return {far(), far(), far()};  // huge
+        case 5:
+            return {p, far(), far()};
+        case 6: {  // slivers
             const Point q = random.chance(2) ? anywhere() : far();
             return {p, q, near(random.chance(2) ? p : q, 2)};
         }
-        case 7: return {snapTo(p, 256, 128), snapTo(anywhere(), 256, 128), snapTo(anywhere(), 256, 128)};  // on centres
-        case 8: return {snapTo(p, 256, 0), snapTo(anywhere(), 256, 0), snapTo(anywhere(), 256, 0)};        // between
-        case 9: {                                                              // edges through centres, right angles
+        case 7:
+            return {snapTo(p, 256, 128), snapTo(anywhere(), 256, 128), snapTo(anywhere(), 256, 128)};  // on centres
+        case 8:
+            return {snapTo(p, 256, 0), snapTo(anywhere(), 256, 0), snapTo(anywhere(), 256, 0)};  // between
+        case 9: {  // edges through centres, right angles
             const Point a = snapTo(p, 256, 128), b = snapTo(anywhere(), 256, 128);
             return random.chance(2) ? Corners{a, {b.x, a.y}, {a.x, b.y}} : Corners{a, {a.x, b.y}, b};
         }
-        case 10: {                                                             // collinear or nearly so
+        case 10: {  // collinear or nearly so
             const int dx = random.between(-500, 500), dy = random.between(-500, 500);
             const int m = random.between(-20, 20), off = random.between(-1, 1);
             return {p, {p.x + dx, p.y + dy}, {p.x + m * dx + off, p.y + m * dy}};
         }
-        default: return {near(p, 2 * w), near(p, 2 * w), near(p, 2 * w)};      // partly outside
+        default:
+            return {near(p, 2 * w), near(p, 2 * w), near(p, 2 * w)};  // partly outside
     }
 }
 
@@ -194,7 +204,7 @@ inline Corners randomTriangle(Random& random, int width, int height, int limit =
 // numbers to interpolate in the tangent.
 struct TestVertex
 {
-    glm::vec4 position;                 // FromPixels: x and y in pixels, depth, clip-space w. FromClip: clip space.
+    glm::vec4 position;  // FromPixels: x and y in pixels, depth, clip-space w. FromClip: clip space.
     glm::vec4 value = glm::vec4(0.0f);
 };
 

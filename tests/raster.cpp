@@ -30,7 +30,8 @@ bool makeTriangle(const Corners& c, Triangle& t)
 class Raster
 {
 public:
-    Raster(int w, int h) : width(w), height(h), counts(static_cast<std::size_t>(w * h)), blocks(w * h / kLanes + w + h + 64)
+    Raster(int w, int h)
+        : width(w), height(h), counts(static_cast<std::size_t>(w * h)), blocks(w * h / kLanes + w + h + 64)
     {
     }
 
@@ -99,7 +100,9 @@ constexpr Named kHandPicked[] = {
     {"the other half of that square", {{{2432, 640}, {2432, 2432}, {640, 2432}}}, 21},
     {"the smallest area there is, at a centre", {{{1920, 1920}, {1921, 1920}, {1920, 1921}}}, 1},
     {"K, largest coordinates around the target", {{{kLimit, -kLimit}, {kLimit, kLimit}, {-kLimit, kLimit}}}, 256},
-    {"L, largest coordinates, an edge through the target", {{{-kLimit, -kLimit}, {kLimit, -kLimit}, {kLimit, kLimit}}}, 136},
+    {"L, largest coordinates, an edge through the target",
+     {{{-kLimit, -kLimit}, {kLimit, -kLimit}, {kLimit, kLimit}}},
+     136},
     {"M, the longest sliver", {{{-kLimit, -kLimit}, {kLimit, kLimit}, {kLimit, kLimit - 1}}}, 16},
     {"largest coordinates beside the target", {{{-kLimit, -kLimit}, {-256, -kLimit}, {-256, kLimit}}}, 0},
     {"O, collinear", {{{256, 256}, {1280, 1280}, {3072, 3072}}}, 0},
@@ -113,7 +116,8 @@ constexpr Named kHandPicked[] = {
 
 }  // namespace
 
-TEST_CASE("raster: hand-picked triangles in both windings cover the known numbers of pixels (T-21, S-303, S-305, S-315)")
+TEST_CASE(
+    "raster: hand-picked triangles in both windings cover the known numbers of pixels (T-21, S-303, S-305, S-315)")
 {
     for (const Named& named : kHandPicked) {
         CAPTURE(named.name);
@@ -239,7 +243,8 @@ TEST_CASE("raster: a fan around a pixel centre hits it once (S-302)")
     int wrong = 0;
     for (int n = 3; n <= 64; ++n) {
         for (int trial = 0; trial < trials(20); ++trial) {
-            const Point hub = {16 * 256 + 128 + 256 * random.between(-8, 8), 16 * 256 + 128 + 256 * random.between(-8, 8)};
+            const Point hub = {16 * 256 + 128 + 256 * random.between(-8, 8),
+                               16 * 256 + 128 + 256 * random.between(-8, 8)};
             // Rim points on a big diamond around the hub, in order of angle: exact, no trigonometry.
             std::vector<int> along;
             for (int i = 0; i < n; ++i) along.push_back(random.between(0, 4 * 5000 - 1));
@@ -287,7 +292,9 @@ TEST_CASE("raster: random triangulations of a square hit every pixel once (S-301
         Raster raster(side, side);
         for (int j = 0; j < n; ++j) {
             for (int i = 0; i < n; ++i) {
-                const auto at = [&](int x, int y) { return points[static_cast<std::size_t>((j + y) * (n + 1) + i + x)]; };
+                const auto at = [&](int x, int y) {
+                    return points[static_cast<std::size_t>((j + y) * (n + 1) + i + x)];
+                };
                 if (random.chance(2)) {
                     raster.add({at(0, 0), at(1, 0), at(1, 1)});
                     raster.add({at(0, 0), at(1, 1), at(0, 1)});

@@ -1,4 +1,5 @@
-// Triangle setup: culling by the snapped orientation, what is dropped and counted as what, and the order of what is left.
+// Triangle setup: culling by the snapped orientation, what is dropped and counted as what, and the order of what is
+// left.
 #include "pipeline/setup.h"
 
 #include <limits>
@@ -207,8 +208,10 @@ TEST_CASE("setup: clipped and unclipped triangles stay in submission order")
         for (int k = 0; k < 3; ++k) {
             indices.push_back(static_cast<std::uint32_t>(positions.size()));
             // The first corner is inside in both cases, and is the first of its fan.
-            positions.emplace_back(k == 1 ? 0.0f : k == 0 ? -0.9f : 0.9f, k == 1 ? 0.9f : -0.9f,
-                                   crossesNear && k == 2 ? -0.5f : 0.5f, 1.0f);
+            positions.emplace_back(k == 1   ? 0.0f
+                                   : k == 0 ? -0.9f
+                                            : 0.9f,
+                                   k == 1 ? 0.9f : -0.9f, crossesNear && k == 2 ? -0.5f : 0.5f, 1.0f);
         }
     }
     FrontEnd frontEnd(positions, indices, {0, 0, 64, 64});

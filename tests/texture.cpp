@@ -181,7 +181,8 @@ TEST_CASE("texture: a constant stays itself through all levels of any size and f
 {
     for (const auto& [width, height] : {std::pair{257, 511}, {64, 64}, {3, 200}}) {
         const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
-        const Texture bytes = *Texture::fromRgba8(width, height, std::vector<std::uint8_t>(count, 77), ColorSpace::linear);
+        const Texture bytes =
+            *Texture::fromRgba8(width, height, std::vector<std::uint8_t>(count, 77), ColorSpace::linear);
         const Texture shorts =
             *Texture::fromRgba16(width, height, std::vector<std::uint16_t>(count, 54321), ColorSpace::linear);
         const Texture floats = *Texture::fromRgbaFloat(width, height, std::vector<float>(count, 0.1f));
@@ -218,7 +219,8 @@ TEST_CASE("texture: the frame repeats the opposite side, rows take an odd number
                 for (int x = -1; x <= level.width(); ++x) {
                     const int wrappedX = (x + level.width()) % level.width();
                     const int wrappedY = (y + level.height()) % level.height();
-                    REQUIRE(std::memcmp(level.texel<std::uint8_t>(x, y), level.texel<std::uint8_t>(wrappedX, wrappedY), 4) == 0);
+                    REQUIRE(std::memcmp(level.texel<std::uint8_t>(x, y), level.texel<std::uint8_t>(wrappedX, wrappedY),
+                                        4) == 0);
                 }
             }
             REQUIRE(level.rowBytes() % 64 == 0);

@@ -46,11 +46,21 @@ TEST_CASE("vertex: snapping rounds to the nearest 1/256, ties to even, on both s
         for (float& p : pixels) {
             const int code = random.between(-kGuardBand * 256, kGuardBand * 256);
             switch (random.between(0, 4)) {
-                case 0: p = static_cast<float>(code % 8192) / 256.0f + 1.0f / 512.0f; break;  // a tie
-                case 1: p = std::nextafter(static_cast<float>(code % 8192) / 256.0f + 1.0f / 512.0f, 0.0f); break;
-                case 2: p = static_cast<float>(code) / 256.0f; break;
-                case 3: p = random.real(-70.0f, 70.0f); break;
-                default: p = random.real(-32767.0f, 32767.0f); break;
+                case 0:
+                    p = static_cast<float>(code % 8192) / 256.0f + 1.0f / 512.0f;
+                    break;  // a tie
+                case 1:
+                    p = std::nextafter(static_cast<float>(code % 8192) / 256.0f + 1.0f / 512.0f, 0.0f);
+                    break;
+                case 2:
+                    p = static_cast<float>(code) / 256.0f;
+                    break;
+                case 3:
+                    p = random.real(-70.0f, 70.0f);
+                    break;
+                default:
+                    p = random.real(-32767.0f, 32767.0f);
+                    break;
             }
         }
         const Int snapped = ViewportTransform::snap(Float::load(pixels));
@@ -132,7 +142,8 @@ TEST_CASE("vertex: codes say on which side of what a position lies, limits inclu
         {{0, 0, 0, 1e-40f}, smallW},
         {{0, 0, 0, 1.17549435e-38f}, smallW},
         {{0, 0, 0, 1e-30f}, 0},
-        {{0, 0, 0, -1}, smallW | beyondGuardBand | outsideLeft | outsideRight | outsideBottom | outsideTop | outsideFar},
+        {{0, 0, 0, -1},
+         smallW | beyondGuardBand | outsideLeft | outsideRight | outsideBottom | outsideTop | outsideFar},
         {{3.4e34f, 0, 0, 3.4e34f}, 0},
     };
     for (const Case& c : cases) {

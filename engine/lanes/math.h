@@ -7,7 +7,8 @@
 
 namespace relief {
 
-// 2^x. Relative error below 1.7e-7 where the result is a normal number. exp2(-inf) = 0, overflow is +inf.
+// 2^x. Relative error below 1.1e-7 where the result is a normal number, absolute error below 2^-149 (the smallest
+// subnormal) where it is not. Integers give exact powers. exp2(-inf) = 0, overflow is +inf.
 inline Float exp2(Float x)
 {
     // Split into an integer, which becomes exponent bits, and a rest in [-0.5, 0.5] for a polynomial with p(0) = 1.
@@ -29,7 +30,8 @@ inline Float exp2(Float x)
     return select(isnan(x), x, p * scaleA * scaleB);
 }
 
-// The binary logarithm. Absolute error below 1.2e-7 on [0.5, 2], relative error below 1.2e-7 outside.
+// The binary logarithm. Absolute error below 1.2e-7 and relative error below 2.3e-7 on [0.5, 2], relative error below 1e-7
+// outside. Powers of two give exact integers; a larger x never gives a smaller result.
 // log2(0) = -inf, log2(+inf) = +inf, NaN below zero.
 inline Float log2(Float x)
 {
@@ -54,7 +56,7 @@ inline Float log2(Float x)
 }
 
 // x^y = exp2(y log2 x), HLSL's definition: NaN for x < 0. x^0 = 1 for every x, 0 included.
-// Relative error about 1.2e-7 * |y log2 x| for |y log2 x| > 1, as rounding the exponent alone makes it.
+// Relative error below 2e-7 * (1 + |y log2 x|); rounding the exponent alone makes 0.4e-7 * |y log2 x| of it.
 inline Float pow(Float x, Float y) { return select(y == 0.0f, Float(1.0f), exp2(y * log2(x))); }
 
 namespace detail {
@@ -87,8 +89,8 @@ inline Float sine(Float x, int phase)
 
 }  // namespace detail
 
-// Sine and cosine of radians: absolute error below 1e-7 for |x| <= 100 pi, below 1e-6 up to 8192. Beyond 1e6, where a
-// float is too coarse for an angle to mean anything, and for NaN and infinities: NaN.
+// Sine and cosine of radians: absolute error below 1e-7 for |x| <= 8192, below 1e-6 up to 1e5. Beyond 1e6, where a float
+// is too coarse for an angle to mean anything, and for NaN and infinities: NaN.
 inline Float sin(Float x) { return detail::sine(x, 0); }
 inline Float cos(Float x) { return detail::sine(x, 1); }
 

@@ -91,14 +91,20 @@ public:
         const Triangle* current = nullptr;
         TriangleWeights triangle;
         CornerComponents<kCount> corners;
+        Counts counts;
         for (const CoveredBlock& block : blocks) {
             if (block.triangle != current) {
                 current = block.triangle;
                 triangle = TriangleWeights(*current);
                 corners = cornersOf(*current, chunk);
             }
-            shadeBlock(block, triangle, corners, tile, statistics);
+            shadeBlock(block, triangle, corners, tile, counts);
         }
+        statistics.blocksShaded += counts.blocks;
+        statistics.quadsShaded += counts.quads;
+        statistics.pixelsShaded += counts.pixels;
+        statistics.pixelsHidden += counts.hidden;
+        statistics.invalidColors += counts.invalid;
     }
 
     [[gnu::flatten]] float shadeAlone(const CoveredBlock& block, const TriangleChunk& chunk,
@@ -138,13 +144,19 @@ private:
         }
     }
 
+    // Of one batch of blocks; in registers while it runs.
+    struct Counts
+    {
+        unsigned blocks = 0, quads = 0, pixels = 0, hidden = 0, invalid = 0;
+    };
+
     void shadeBlock(const CoveredBlock& block, const TriangleWeights& triangle, const CornerComponents<kCount>& corners,
-                    Tile& tile, Statistics& statistics) const
+                    Tile& tile, Counts& counts) const
     {
         const int index = tile.blockAt(block.x, block.y);
         DepthBounds& bounds = tile.bounds(index);
         if (isHidden<state.depthTest>(triangle.nearest, triangle.farthest, bounds)) {
-            statistics.pixelsHidden += static_cast<unsigned>(std::popcount(block.coverage));
+            counts.hidden += static_cast<unsigned>(std::popcount(block.coverage));
             return;
         }
         const BlockWeights weights = triangle.at(block.x, block.y, block.coverage);
@@ -164,16 +176,15 @@ private:
         };
         if constexpr (kUsesDepth && !kMayDiscard) {
             testAndWriteDepth();
-            const auto hidden = std::popcount(block.coverage) - count(live);
-            statistics.pixelsHidden += static_cast<unsigned>(hidden);
+            counts.hidden += static_cast<unsigned>(std::popcount(block.coverage) - count(live));
             if (none(live)) return;
         }
 
         const unsigned quads = wholeQuads(live.bits());
         activeLanes = quads;
-        statistics.blocksShaded += 1;
-        statistics.quadsShaded += static_cast<unsigned>(std::popcount(quads)) / 4;
-        statistics.pixelsShaded += static_cast<unsigned>(count(live));
+        counts.blocks += 1;
+        counts.quads += static_cast<unsigned>(std::popcount(quads)) / 4;
+        counts.pixels += static_cast<unsigned>(count(live));
 
         const Interpolators input = interpolate<Interpolators>(triangle, corners, weights, block.x, block.y, depth);
         Discard discard;
@@ -182,7 +193,7 @@ private:
             live &= !discard.discarded;
             if constexpr (kUsesDepth) testAndWriteDepth();
         }
-        statistics.invalidColors += static_cast<unsigned>(sanitizeColor(color, live));
+        counts.invalid += static_cast<unsigned>(sanitizeColor(color, live));
         mergeColor<state.blend>(tile, index, color, live);
     }
 

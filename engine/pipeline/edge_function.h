@@ -46,14 +46,31 @@ inline EdgeFunction edgeOf(const Triangle& t, int k)
     return {t.x[a], t.y[a], t.x[b], t.y[b]};
 }
 
-// The pixels whose centres lie within the triangle's bounds, clipped.
+// The smallest and largest of three coordinates.
+inline std::int32_t lowest(const std::int32_t v[3])
+{
+    const std::int32_t low = v[0] < v[1] ? v[0] : v[1];
+    return low < v[2] ? low : v[2];
+}
+inline std::int32_t highest(const std::int32_t v[3])
+{
+    const std::int32_t high = v[0] > v[1] ? v[0] : v[1];
+    return high > v[2] ? high : v[2];
+}
+
+// Whether the edge functions fit into 32 bits at every pixel of every block that the triangle touches.
+inline bool isSmall(const Triangle& t)
+{
+    constexpr std::int32_t limit = kSmallTriangle * kSubpixels;
+    return highest(t.x) - lowest(t.x) <= limit && highest(t.y) - lowest(t.y) <= limit;
+}
+
+// The pixels whose centres lie within the triangle's bounds, clipped; may be empty.
 inline Rectangle sampleBounds(const Triangle& t, const Rectangle& clip)
 {
-    const auto low = [](const std::int32_t v[3]) { return v[0] < v[1] ? (v[0] < v[2] ? v[0] : v[2]) : (v[1] < v[2] ? v[1] : v[2]); };
-    const auto high = [](const std::int32_t v[3]) { return v[0] > v[1] ? (v[0] > v[2] ? v[0] : v[2]) : (v[1] > v[2] ? v[1] : v[2]); };
-    const int half = kSubpixels / 2;
-    return intersect({(low(t.x) + half - 1) >> kSubpixelBits, (low(t.y) + half - 1) >> kSubpixelBits,
-                      ((high(t.x) - half) >> kSubpixelBits) + 1, ((high(t.y) - half) >> kSubpixelBits) + 1},
+    constexpr int half = kSubpixels / 2;
+    return intersect({(lowest(t.x) + half - 1) >> kSubpixelBits, (lowest(t.y) + half - 1) >> kSubpixelBits,
+                      ((highest(t.x) - half) >> kSubpixelBits) + 1, ((highest(t.y) - half) >> kSubpixelBits) + 1},
                      clip);
 }
 

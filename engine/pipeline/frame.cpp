@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "pipeline/setup.h"
 
@@ -72,6 +73,7 @@ struct Frame::Storage
     {
         draws.clear();
         clearColor.reset();
+        clearDepth = 1.0f;
         viewport = {0, 0, target.width(), target.height()};
         scissor = {0, 0, target.width(), target.height()};
     }
@@ -116,8 +118,13 @@ void Frame::reset() { storage->resetState(); }
 
 void Frame::clear(const glm::vec4& color, float depth)
 {
-    storage->clearColor = color;
-    storage->clearDepth = depth;
+    // As with what a program returns: NaN becomes 0 (depth: 1), infinities the largest finite number.
+    const auto finite = [](float value, float insteadOfNan) {
+        constexpr float largest = std::numeric_limits<float>::max();
+        return value != value ? insteadOfNan : std::clamp(value, -largest, largest);
+    };
+    storage->clearColor = {finite(color.x, 0.0f), finite(color.y, 0.0f), finite(color.z, 0.0f), finite(color.w, 0.0f)};
+    storage->clearDepth = finite(depth, 1.0f);
 }
 
 void Frame::setViewport(const Viewport& viewport)
@@ -245,7 +252,6 @@ void Frame::Storage::drawTile(int tileIndex, Worker& worker)
 
 void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker)
 {
-    const Rectangle pixels = tilePixels(tileIndex);
     // Blocks are collected and shaded in batches: of one draw each, and at most this many and one more tile's worth.
     constexpr std::size_t kBatch = 256;
     const std::size_t blocksInTile = static_cast<std::size_t>(grid.tileSize * grid.tileSize / kLanes);
@@ -253,6 +259,7 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
     CoveredBlock* const begin = worker.blocks.data();
     CoveredBlock* end = begin;
     std::uint32_t current = 0;
+    Rectangle clip = intersect(tilePixels(tileIndex), draws[current]->geometry.bounds);
     const auto flush = [&] {
         if (end == begin) return;
         draws[current]->shadeBlocks({begin, end}, chunk, *worker.tile, worker.statistics);
@@ -262,10 +269,13 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
     const auto tile = static_cast<std::size_t>(tileIndex);
     for (std::uint32_t i = chunk.binStart[tile]; i < chunk.binStart[tile + 1]; ++i) {
         const Triangle& triangle = chunk.triangles[chunk.sorted[i]];
-        if (triangle.drawIndex != current || end - begin >= static_cast<std::ptrdiff_t>(kBatch)) flush();
-        current = triangle.drawIndex;
-        const Rectangle bounds = intersect(pixels, draws[current]->geometry.bounds);
-        end = rasterise(triangle, sampleBounds(triangle, bounds), end);
+        if (triangle.drawIndex != current) {
+            flush();
+            current = triangle.drawIndex;
+            clip = intersect(tilePixels(tileIndex), draws[current]->geometry.bounds);
+        }
+        if (end - begin >= static_cast<std::ptrdiff_t>(kBatch)) flush();
+        end = rasterise(triangle, clip, end);
     }
     flush();
 }
@@ -306,7 +316,7 @@ float Frame::shadeAlone(std::uint64_t blocks) const
             if (first == chunk.binStart[static_cast<std::size_t>(tile) + 1]) continue;
             const Triangle& triangle = chunk.triangles[chunk.sorted[first]];
             const Rectangle pixels = intersect(s.tilePixels(tile), s.draws[triangle.drawIndex]->geometry.bounds);
-            const CoveredBlock* end = rasterise(triangle, sampleBounds(triangle, pixels), covered.data());
+            const CoveredBlock* end = rasterise(triangle, pixels, covered.data());
             if (end == covered.data()) continue;
             samples.push_back({covered[static_cast<std::size_t>(end - covered.data()) / 2], &chunk});
         }

@@ -6,6 +6,8 @@
 //     p_k = E_k / w_k / sum(E_j / w_j)     linear in space: everything else
 #pragma once
 
+#include <limits>
+
 #include "hlsl/semantics.h"
 #include "lanes/double.h"
 #include "pipeline/edge_function.h"
@@ -26,12 +28,11 @@ public:
     TriangleWeights() = default;
     explicit TriangleWeights(const Triangle& t)
     {
-        const std::int64_t spanX = span(t.x), spanY = span(t.y);
-        isSmall = spanX <= kSmallTriangle * kSubpixels && spanY <= kSmallTriangle * kSubpixels;
+        small = isSmall(t);
         for (int k = 0; k < 3; ++k) {
             edge[k] = edgeOf(t, k);
             const Int steps = laneXs() * Int(edge[k].stepX) + laneYs() * Int(edge[k].stepY);
-            if (isSmall) {
+            if (small) {
                 smallLanes[k] = steps << kSubpixelBits;
             } else {
                 // stepX * 3 + stepY * 3 stays below 2^27; times 256 it needs the double.
@@ -83,8 +84,9 @@ public:
         Float sum = e[0] * invW[0] + e[1] * invW[1] + e[2] * invW[2];
         if (covered != kAllLanes) [[unlikely]] {
             // Beyond the triangle the sum, which is 1/w, may reach zero: behind the horizon. There, attributes come from
-            // the nearest weights within the triangle instead, so that differences to the neighbours stay finite.
-            const Mask beyond = !(sum > 0.0f);
+            // the nearest weights within the triangle instead, so that differences to the neighbours stay finite. Just
+            // above zero it is as bad. Covered pixels have no negative weights: nothing changes for them.
+            const Mask beyond = !(sum > 0x1p-20f);
             if (any(beyond)) {
                 for (Float& value : e) value = select(beyond, max(value, Float(0.0f)), value);
                 sum = e[0] * invW[0] + e[1] * invW[1] + e[2] * invW[2];
@@ -108,25 +110,19 @@ public:
     float nearest = 0, farthest = 0;  // the corners' depths, within 0 ... 1
 
 private:
-    static std::int32_t span(const std::int32_t v[3])
-    {
-        const std::int32_t low = v[0] < v[1] ? v[0] : v[1], high = v[0] < v[1] ? v[1] : v[0];
-        return (v[2] > high ? v[2] : high) - (v[2] < low ? v[2] : low);
-    }
-
     // E at the pixels of a block: an exact integer either way, then rounded once.
     Float edgeValue(int k, int x, int y) const
     {
         const std::int64_t steps = static_cast<std::int64_t>(edge[k].stepX) * x + static_cast<std::int64_t>(edge[k].stepY) * y;
         const std::int64_t corner = edge[k].origin + steps * kSubpixels;
-        if (isSmall) return Float(smallLanes[k] + static_cast<std::int32_t>(corner));
+        if (small) return Float(smallLanes[k] + static_cast<std::int32_t>(corner));
         return toFloat(largeLanes[k] + Double(static_cast<double>(corner)));
     }
 
     EdgeFunction edge[3] = {};
     Int smallLanes[3] = {0, 0, 0};
     Double largeLanes[3] = {0.0, 0.0, 0.0};
-    bool isSmall = false;
+    bool small = false;
     float doubledArea = 0, inverseArea = 0, scale = 0;
     float invW[3] = {};
     float z0 = 0, dz1 = 0, dz2 = 0;

@@ -83,29 +83,9 @@ template <Blend blend>
 float4 blendColors(const float4& source, const float4& destination)
 {
     if constexpr (blend == Blend::additive) return source + destination;
-    if constexpr (blend == Blend::alpha) return lerp(destination, source, source.w);
+    // Not as lerp(): d + (s - d) loses an opaque s where d is much brighter, and s - d can overflow.
+    if constexpr (blend == Blend::alpha) return source * source.w + destination * (1.0f - source.w);
     return source;
-}
-
-// Blends the colours of a block's live pixels into the tile. Colours are linear.
-template <Blend blend>
-void mergeColor(Tile& tile, int block, float4 color, Mask live)
-{
-    if (tile.format() == ColorFormat::rgba32f) {
-        float* stored = tile.color32f(block);
-        float4 old;
-        for (int c = 0; c < 4; ++c) old[c] = Float::load(stored + c * kLanes);
-        if constexpr (blend != Blend::off) color = blendColors<blend>(color, old);
-        for (int c = 0; c < 4; ++c) select(live, color[c], old[c]).store(stored + c * kLanes);
-        return;
-    }
-    const bool srgb = tile.format() == ColorFormat::rgba8Srgb;
-    std::int32_t* stored = tile.color8(block);
-    const Int old = Int::load(stored);
-    if constexpr (blend != Blend::off) {
-        color = blendColors<blend>(saturate(color), srgb ? decodeSrgb8(old) : unpackRgba8(old));
-    }
-    select(live, packRgba8(srgb ? encodeSrgb(color) : color), old).store(stored);
 }
 
 // No NaN and no infinity enters a target: NaN becomes 0, infinities the largest finite number. Returns how many live
@@ -121,6 +101,30 @@ inline int sanitizeColor(float4& color, Mask live)
         color[c] = select(isnan(color[c]), Float(0.0f), clamp(color[c], -largest, largest));
     }
     return count(invalid);
+}
+
+// Blends the colours of a block's live pixels into the tile. Colours are linear.
+template <Blend blend>
+void mergeColor(Tile& tile, int block, float4 color, Mask live)
+{
+    if (tile.format() == ColorFormat::rgba32f) {
+        float* stored = tile.color32f(block);
+        float4 old;
+        for (int c = 0; c < 4; ++c) old[c] = Float::load(stored + c * kLanes);
+        if constexpr (blend != Blend::off) {
+            color = blendColors<blend>(color, old);
+            sanitizeColor(color, live);  // sums may overflow
+        }
+        for (int c = 0; c < 4; ++c) select(live, color[c], old[c]).store(stored + c * kLanes);
+        return;
+    }
+    const bool srgb = tile.format() == ColorFormat::rgba8Srgb;
+    std::int32_t* stored = tile.color8(block);
+    const Int old = Int::load(stored);
+    if constexpr (blend != Blend::off) {
+        color = blendColors<blend>(saturate(color), srgb ? decodeSrgb8(old) : unpackRgba8(old));
+    }
+    select(live, packRgba8(srgb ? encodeSrgb(color) : color), old).store(stored);
 }
 
 }  // namespace relief

@@ -9,86 +9,114 @@ namespace relief {
 
 namespace {
 
-// The edges that cross a square of the screen, each as 32-bit values at the lanes of a block.
-struct CrossingEdges
+// Edges whose sign varies among the pixels in question, as 32-bit values at the lanes of a block.
+struct EdgeLanes
 {
     Int value[3];  // at the first block of the current row of blocks
-    std::int32_t stepX[3], stepY[3];
+    std::int32_t stepX[3], stepY[3];  // to the next block, to the next row of blocks
     int count = 0;
+
+    // An edge with the coverage value `corner` at the upper left pixel of the first block.
+    void add(const EdgeFunction& edge, std::int32_t corner)
+    {
+        value[count] = laneXs() * Int(edge.stepX) + laneYs() * Int(edge.stepY) + corner;
+        stepX[count] = edge.stepX * kBlockWidth;
+        stepY[count] = edge.stepY * kBlockHeight;
+        ++count;
+    }
 };
 
 // The lanes of the block at (x, y) that lie within `pixels`.
 unsigned lanesWithin(const Rectangle& pixels, int x, int y)
 {
-    if (x >= pixels.x0 && y >= pixels.y0 && x + kBlockWidth <= pixels.x1 && y + kBlockHeight <= pixels.y1) {
-        return kAllLanes;
-    }
     const Int px = laneXs() + x, py = laneYs() + y;
     return ((px >= pixels.x0) & (px < pixels.x1) & (py >= pixels.y0) & (py < pixels.y1)).bits();
 }
 
-// The edges that a square of pixels has on both sides; false where one of them has it all outside.
-bool findCrossingEdges(const Triangle& triangle, int x, int y, int width, int height, CrossingEdges& crossing)
+bool isOnBlockGrid(const Rectangle& r)
 {
-    for (int k = 0; k < 3; ++k) {
-        const EdgeFunction edge = edgeOf(triangle, k);
-        const std::int64_t corner = edge.coverage(x, y);
-        const std::int64_t acrossX = static_cast<std::int64_t>(edge.stepX) * (width - 1);
-        const std::int64_t acrossY = static_cast<std::int64_t>(edge.stepY) * (height - 1);
-        const std::int64_t highest = corner + std::max<std::int64_t>(0, acrossX) + std::max<std::int64_t>(0, acrossY);
-        const std::int64_t lowest = corner + std::min<std::int64_t>(0, acrossX) + std::min<std::int64_t>(0, acrossY);
-        if (highest < 0) return false;
-        if (lowest >= 0) continue;
-        const int n = crossing.count++;
-        crossing.stepX[n] = edge.stepX * kBlockWidth;
-        crossing.stepY[n] = edge.stepY * kBlockHeight;
-        crossing.value[n] = laneXs() * Int(edge.stepX) + laneYs() * Int(edge.stepY) + static_cast<std::int32_t>(corner);
-    }
-    return true;
+    return ((r.x0 | r.x1) & (kBlockWidth - 1)) == 0 && ((r.y0 | r.y1) & (kBlockHeight - 1)) == 0;
 }
 
-// One square, at most kCoverageSquare wide, its origin on the block grid. `edges` is the number of crossing edges.
+// Visits the blocks of `pixels` (upper left corner on the block grid): those that all edges let through. `edges` is
+// how many there are. Where `clip` is not on the block grid, its lanes are cut off too.
 template <int edges>
-CoveredBlock* coverSquare(const Triangle& triangle, const Rectangle& pixels, int x0, int y0, CrossingEdges& crossing,
+CoveredBlock* coverBlocks(const Triangle& triangle, const Rectangle& pixels, const Rectangle* clip, EdgeLanes& lanes,
                           CoveredBlock* out)
 {
-    for (int y = y0; y < pixels.y1; y += kBlockHeight) {
+    for (int y = pixels.y0; y < pixels.y1; y += kBlockHeight) {
         Int value[3];
-        for (int k = 0; k < edges; ++k) value[k] = crossing.value[k];
-        for (int x = x0; x < pixels.x1; x += kBlockWidth) {
+        for (int k = 0; k < edges; ++k) value[k] = lanes.value[k];
+        for (int x = pixels.x0; x < pixels.x1; x += kBlockWidth) {
             // Outside is where any edge is negative: the sign bit of them all.
-            unsigned coverage = lanesWithin(pixels, x, y);
+            unsigned coverage = kAllLanes;
             if constexpr (edges == 1) coverage &= ~signBits(value[0]);
             if constexpr (edges == 2) coverage &= ~signBits(value[0] | value[1]);
             if constexpr (edges == 3) coverage &= ~signBits(value[0] | value[1] | value[2]);
+            if (clip != nullptr) coverage &= lanesWithin(*clip, x, y);
             *out = {&triangle, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), coverage};
             out += coverage != 0 ? 1 : 0;
-            for (int k = 0; k < edges; ++k) value[k] += crossing.stepX[k];
+            for (int k = 0; k < edges; ++k) value[k] += lanes.stepX[k];
         }
-        for (int k = 0; k < edges; ++k) crossing.value[k] += crossing.stepY[k];
+        for (int k = 0; k < edges; ++k) lanes.value[k] += lanes.stepY[k];
     }
     return out;
 }
 
+// A triangle of at most kSmallTriangle pixels: its edge values near it fit into 32 bits, and nothing is worth sorting out.
+CoveredBlock* coverSmall(const Triangle& t, const Rectangle& pixels, const Rectangle* clip, CoveredBlock* out)
+{
+    EdgeLanes lanes;
+    for (int k = 0; k < 3; ++k) {
+        const EdgeFunction edge = edgeOf(t, k);
+        lanes.add(edge, static_cast<std::int32_t>(edge.coverage(pixels.x0, pixels.y0)));
+    }
+    return coverBlocks<3>(t, pixels, clip, lanes, out);
+}
+
+// Any triangle, in a part of the screen of at most kCoverageSquare pixels: edges that have all of it on one side are
+// sorted out first, and the others then fit into 32 bits.
+CoveredBlock* coverSquare(const Triangle& t, const Rectangle& pixels, const Rectangle* clip, CoveredBlock* out)
+{
+    EdgeLanes lanes;
+    const std::int64_t lastX = ((pixels.x1 - pixels.x0 + kBlockWidth - 1) & -kBlockWidth) - 1;
+    const std::int64_t lastY = ((pixels.y1 - pixels.y0 + kBlockHeight - 1) & -kBlockHeight) - 1;
+    for (int k = 0; k < 3; ++k) {
+        const EdgeFunction edge = edgeOf(t, k);
+        const std::int64_t corner = edge.coverage(pixels.x0, pixels.y0);
+        const std::int64_t acrossX = edge.stepX * lastX, acrossY = edge.stepY * lastY;
+        const std::int64_t zero = 0;
+        if (corner + std::max(zero, acrossX) + std::max(zero, acrossY) < 0) return out;
+        if (corner + std::min(zero, acrossX) + std::min(zero, acrossY) >= 0) continue;
+        lanes.add(edge, static_cast<std::int32_t>(corner));
+    }
+    switch (lanes.count) {
+        case 0: return coverBlocks<0>(t, pixels, clip, lanes, out);
+        case 1: return coverBlocks<1>(t, pixels, clip, lanes, out);
+        case 2: return coverBlocks<2>(t, pixels, clip, lanes, out);
+        default: return coverBlocks<3>(t, pixels, clip, lanes, out);
+    }
+}
+
 }  // namespace
 
-CoveredBlock* rasterise(const Triangle& triangle, const Rectangle& pixels, CoveredBlock* out)
+CoveredBlock* rasterise(const Triangle& triangle, const Rectangle& clip, CoveredBlock* out)
 {
-    for (int y = pixels.y0 & -kBlockHeight; y < pixels.y1; y = (y & -kCoverageSquare) + kCoverageSquare) {
-        for (int x = pixels.x0 & -kBlockWidth; x < pixels.x1; x = (x & -kCoverageSquare) + kCoverageSquare) {
-            const Rectangle square = {pixels.x0, pixels.y0, std::min(pixels.x1, (x & -kCoverageSquare) + kCoverageSquare),
-                                      std::min(pixels.y1, (y & -kCoverageSquare) + kCoverageSquare)};
-            const int width = ((square.x1 - x + kBlockWidth - 1) & -kBlockWidth);
-            const int height = ((square.y1 - y + kBlockHeight - 1) & -kBlockHeight);
-            CrossingEdges crossing;
-            if (!findCrossingEdges(triangle, x, y, width, height, crossing)) continue;
-            switch (crossing.count) {
-                case 0: out = coverSquare<0>(triangle, square, x, y, crossing, out); break;
-                case 1: out = coverSquare<1>(triangle, square, x, y, crossing, out); break;
-                case 2: out = coverSquare<2>(triangle, square, x, y, crossing, out); break;
-                default: out = coverSquare<3>(triangle, square, x, y, crossing, out); break;
-            }
+    Rectangle pixels = sampleBounds(triangle, clip);
+    if (pixels.x0 >= pixels.x1 || pixels.y0 >= pixels.y1) return out;
+    pixels.x0 &= -kBlockWidth;
+    pixels.y0 &= -kBlockHeight;
+    const Rectangle* cut = isOnBlockGrid(clip) ? nullptr : &clip;
+    if (isSmall(triangle)) return coverSmall(triangle, pixels, cut, out);
+
+    for (int y = pixels.y0; y < pixels.y1;) {
+        const int nextY = std::min(pixels.y1, (y & -kCoverageSquare) + kCoverageSquare);
+        for (int x = pixels.x0; x < pixels.x1;) {
+            const int nextX = std::min(pixels.x1, (x & -kCoverageSquare) + kCoverageSquare);
+            out = coverSquare(triangle, {x, y, nextX, nextY}, cut, out);
+            x = nextX;
         }
+        y = nextY;
     }
     return out;
 }

@@ -11,11 +11,12 @@ namespace relief {
 struct CoveredBlock
 {
     const Triangle* triangle;
-    std::uint16_t x, y;       // of its upper left pixel, in the target
-    std::uint32_t coverage;   // a bit per lane
+    std::uint16_t x, y;      // of its upper left pixel, in the target
+    std::uint32_t coverage;  // a bit per lane
 };
 
-// Appends the covered blocks of `pixels` (a part of one tile, not empty) to `out` and returns the new end.
-CoveredBlock* rasterise(const Triangle& triangle, const Rectangle& pixels, CoveredBlock* out);
+// Appends the blocks of `clip` (a tile, or a part of one) in which the triangle covers a pixel to `out`, row by row, and
+// returns the new end. There must be room for every block of `clip` and one more.
+CoveredBlock* rasterise(const Triangle& triangle, const Rectangle& clip, CoveredBlock* out);
 
 }  // namespace relief

@@ -79,29 +79,51 @@ void Tile::load(int x0, int y0, const Framebuffer& target, float transientDepth)
     }
 }
 
+namespace {
+
+// Copies blocks of one value per lane to rows of pixels. `get` gives block b's lanes.
+template <class Pixel, class Get>
+void storeRows(int width, int height, int blocksWide, std::size_t stride, Pixel* target, const Get& get)
+{
+    for (int y = 0; y < height; y += kBlockHeight) {
+        for (int x = 0; x < width; x += kBlockWidth) {
+            const Pixel* lanes = get(y / kBlockHeight * blocksWide + x / kBlockWidth);
+            Pixel* corner = target + static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
+            if (x + kBlockWidth <= width && y + kBlockHeight <= height) {
+                for (int i = 0; i < kLanes; i += 2) {
+                    std::memcpy(corner + static_cast<std::size_t>(laneY(i)) * stride + laneX(i), lanes + i, 2 * sizeof(Pixel));
+                }
+                continue;
+            }
+            for (int i = 0; i < kLanes; ++i) {
+                if (x + laneX(i) < width && y + laneY(i) < height) corner[static_cast<std::size_t>(laneY(i)) * stride + static_cast<std::size_t>(laneX(i))] = lanes[i];
+            }
+        }
+    }
+}
+
+}  // namespace
+
 void Tile::store(Framebuffer& target) const
 {
     const auto stride = static_cast<std::size_t>(target.width());
+    const std::size_t first = static_cast<std::size_t>(originY) * stride + static_cast<std::size_t>(originX);
     const int width = std::min(size, target.width() - originX), height = std::min(size, target.height() - originY);
-    const bool isFloat = mFormat == ColorFormat::rgba32f;
-    for (int y = 0; y < height; ++y) {
-        const std::size_t row = static_cast<std::size_t>(originY + y) * stride + static_cast<std::size_t>(originX);
-        const int blockRow = y / kBlockHeight * blocksWide;
-        const int laneRow = (y & 1) * 2 + (y % kBlockHeight / 2) * 8;  // the lane of the row's first pixel in a block
-        for (int x = 0; x < width; x += 2) {
-            const auto lane = static_cast<std::size_t>((blockRow + x / kBlockWidth) * kLanes + laneRow +
-                                                       x % kBlockWidth / 2 * 4);
-            const std::size_t pixel = row + static_cast<std::size_t>(x);
-            const std::size_t pixels = x + 1 < width ? 2 : 1;
-            if (!isFloat) std::memcpy(target.color8().data() + pixel, mColor8.get() + lane, pixels * sizeof(std::int32_t));
-            if (!target.depth().empty()) {
-                std::memcpy(target.depth().data() + pixel, mDepth.get() + lane, pixels * sizeof(float));
-            }
-            for (std::size_t i = 0; isFloat && i < pixels; ++i) {
-                const float* r = mColor32f.get() + lane / kLanes * kLanes * 4 + lane % kLanes + i;
-                target.color32f()[pixel + i] = {r[0], r[kLanes], r[2 * kLanes], r[3 * kLanes]};
-            }
-        }
+    const auto lane = [](int block) { return static_cast<std::size_t>(block) * kLanes; };
+    if (mFormat == ColorFormat::rgba32f) {
+        glm::vec4 pixels[kLanes];
+        storeRows(width, height, blocksWide, stride, target.color32f().data() + first, [&](int block) {
+            const float* r = mColor32f.get() + lane(block) * 4;
+            for (int i = 0; i < kLanes; ++i) pixels[i] = {r[i], r[kLanes + i], r[2 * kLanes + i], r[3 * kLanes + i]};
+            return pixels;
+        });
+    } else {
+        storeRows(width, height, blocksWide, stride, reinterpret_cast<std::int32_t*>(target.color8().data()) + first,
+                  [&](int block) { return mColor8.get() + lane(block); });
+    }
+    if (!target.depth().empty()) {
+        storeRows(width, height, blocksWide, stride, target.depth().data() + first,
+                  [&](int block) { return mDepth.get() + lane(block); });
     }
 }
 

@@ -33,17 +33,16 @@ inline constexpr int kSubtexelMask = kSubtexels - 1;
 // u = k/side in texel k.
 inline constexpr int kNearestBits = 8;
 
-// The coordinate brought into the range that the conversion to fixed point is safe for: 0..1 for all but the border
-// mode. It does not depend on the level. NaN stays or becomes 0.
+// The coordinate brought into the range that the conversion to fixed point is safe for: one period where the texture
+// repeats, else all that differs. It does not depend on the level. NaN stays or becomes 0.
 inline Float reduceRange(AddressMode mode, Float u)
 {
     switch (mode) {
         case AddressMode::wrap:
             return u - floor(u);  // 1 for u = -1e-8: the same place as 0
         case AddressMode::mirror: {
-            const Float half = u * 0.5f;
-            const Float there = (half - floor(half)) * 2.0f;
-            return min(there, 2.0f - there);
+            const Float half = u * 0.5f;  // a picture and its mirror image
+            return (half - floor(half)) * 2.0f;
         }
         case AddressMode::clamp:
             return clamp(u, 0.0f, 1.0f);
@@ -59,11 +58,13 @@ inline Float reduceRange(AddressMode mode, Float u)
 inline Int pairPosition(AddressMode mode, Float reduced, int side, float sideInFloat)
 {
     // Half a texel back from the edge to the centre, one on for the frame.
-    const Float position = reduced * (sideInFloat * static_cast<float>(kSubtexels)) + static_cast<float>(kSubtexels / 2);
+    const Float position =
+        reduced * (sideInFloat * static_cast<float>(kSubtexels)) + static_cast<float>(kSubtexels / 2);
     const Float number = select(position == position, position, static_cast<float>(kSubtexels));
     const Int rounded = Int(native::roundToInt(number.value));
     if (mode == AddressMode::wrap || mode == AddressMode::border) return rounded;
-    return clamp(rounded, kSubtexels, side * kSubtexels);
+    const Int folded = mode == AddressMode::mirror ? min(rounded, (2 * side + 1) * kSubtexels - rounded) : rounded;
+    return clamp(folded, kSubtexels, side * kSubtexels);
 }
 
 // The position of the nearest texel, in 1..side + 1 for wrap (the last is the frame's copy of the first texel), 1..side
@@ -75,7 +76,8 @@ inline Int nearestPosition(AddressMode mode, Float reduced, int side, float side
     const Float number = select(position == position, position, static_cast<float>(one));
     const Int rounded = Int(native::roundToInt(number.value)) >> kNearestBits;
     if (mode == AddressMode::wrap || mode == AddressMode::border) return rounded;
-    return min(rounded, side);
+    const Int folded = mode == AddressMode::mirror ? min(rounded, 2 * side + 1 - rounded) : rounded;
+    return clamp(folded, 1, side);
 }
 
 }  // namespace relief

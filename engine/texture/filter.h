@@ -1,8 +1,8 @@
 // Filters: from a place on a texture and a level of detail to a colour, for one texel format. The common case, every
 // lane on one mip level, goes straight through; a block that spans several levels runs once per level.
 //
-// All of this is inlined into two functions per format (finestIn and mipChainIn in sampler.cpp): a call in between would
-// move every register through memory.
+// All of this is inlined into two functions per format (finestIn and mipChainIn in sampler.cpp): a call in between
+// would move every register through memory.
 #pragma once
 
 #include <bit>
@@ -30,10 +30,16 @@ inline Place placeOf(const sampler2D& s, const Texture& texture, Float u, Float 
     return {s, texture, reduceRange(s.u, u), reduceRange(s.v, v)};
 }
 
-inline bool hasBorder(const sampler2D& s) { return s.u == AddressMode::border || s.v == AddressMode::border; }
+inline bool hasBorder(const sampler2D& s)
+{
+    return s.u == AddressMode::border || s.v == AddressMode::border;
+}
 
 // The lanes that results are wanted for. A block without any still gets some values.
-inline unsigned wantedLanes() { return activeLanes != 0 ? activeLanes : 1u; }
+inline unsigned wantedLanes()
+{
+    return activeLanes != 0 ? activeLanes : 1u;
+}
 
 // The texels that a bilinear sample lies between, on one level: positions and weights along both axes.
 struct Pairs

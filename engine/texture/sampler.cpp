@@ -1,5 +1,5 @@
-// The steps of a texture sample: level of detail, what it takes (one level, two, several samples), and the texel format,
-// chosen once. The filters themselves are in filter.h.
+// The steps of a texture sample: level of detail, what it takes (one level, two, several samples), and the texel
+// format, chosen once. The filters themselves are in filter.h.
 #include "texture/sampler.h"
 
 #include <algorithm>
@@ -107,7 +107,7 @@ inline float4 sampleFinestCounted(const sampler2D& s, const Texture& texture, Fl
 }
 
 [[gnu::always_inline]] inline float4 sampleIsotropic(const sampler2D& s, const Texture& texture, Float u, Float v,
-                                                        Float lod)
+                                                     Float lod)
 {
     const Int fixed = fixedLevel(s, texture, lod);
     const unsigned onFinest = (fixed == 0).bits();

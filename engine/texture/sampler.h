@@ -47,7 +47,10 @@ float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod);
 
 // The colour at uv. The level of detail comes from the differences to the neighbouring pixels, so all lanes of a quad
 // must get here together: call it outside of anything that only some lanes do, or use tex2Dgrad or tex2Dlod.
-inline float4 tex2D(const sampler2D& s, const float2& uv) { return detail::sampleImplicit(s, uv.x, uv.y, 0.0f); }
+inline float4 tex2D(const sampler2D& s, const float2& uv)
+{
+    return detail::sampleImplicit(s, uv.x, uv.y, 0.0f);
+}
 
 // The same with the coordinate's change per pixel given, to the right and down. For coordinates that jump (a seam, a
 // frac) where the surface does not.

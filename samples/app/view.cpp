@@ -1,11 +1,11 @@
 // The window: a stage that can be turned, zoomed and changed while it runs. SDL2 shows the pixels; every one of them is
 // computed by the engine.
 //
-//   drag             orbit                     up, down       choose a property
-//   wheel            zoom                      left, right    change it (shift: ten times as fast)
-//   page up, down    previous, next stage      R              everything back to its default
-//   F2               before/after: left half the previous stage, right half this one
-//   Q, escape        close
+//   drag           orbit                     up, down    choose a property
+//   wheel          zoom                      + and -     change it (shift: ten times as fast)
+//   left, right    previous, next stage      R           everything back to its default
+//   F2             before/after: left half the previous stage, right half this one
+//   Q, escape      close
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -68,7 +68,7 @@ Expected<void> Viewer::open(std::size_t stage, bool keepSettings)
     index = stage;
     current = std::move(*opened);
     previous = std::move(*before);
-    orbit = Orbit(current.stage->camera);
+    orbit = Orbit(current.camera());
     property = 0;
     return {};
 }
@@ -90,10 +90,13 @@ void Viewer::key(SDL_Keycode pressed, bool fast)
         case SDLK_ESCAPE: running = false; break;
         case SDLK_UP: property = (property + properties - 1) % properties; break;
         case SDLK_DOWN: property = (property + 1) % properties; break;
-        case SDLK_LEFT: change(fast ? -10.0f : -1.0f); break;
-        case SDLK_RIGHT: change(fast ? 10.0f : 1.0f); break;
-        case SDLK_PAGEUP: opened = open(index == 0 ? allStages().size() - 1 : index - 1, false); break;
-        case SDLK_PAGEDOWN: opened = open((index + 1) % allStages().size(), false); break;
+        case SDLK_MINUS:
+        case SDLK_KP_MINUS: change(fast ? -10.0f : -1.0f); break;
+        case SDLK_PLUS:
+        case SDLK_EQUALS:
+        case SDLK_KP_PLUS: change(fast ? 10.0f : 1.0f); break;
+        case SDLK_LEFT: opened = open(index == 0 ? allStages().size() - 1 : index - 1, false); break;
+        case SDLK_RIGHT: opened = open((index + 1) % allStages().size(), false); break;
         case SDLK_r: opened = open(index, false); break;
         case SDLK_F2: compare = !compare; break;
         default: break;
@@ -118,14 +121,14 @@ std::string Viewer::title(double milliseconds) const
 void Viewer::draw(Framebuffer& target, Framebuffer& scratch, Frame& frame, Frame& scratchFrame) const
 {
     const int width = target.width(), height = target.height();
-    const Camera camera = orbit.applied(current.stage->camera);
+    const Camera camera = orbit.applied(current.camera());
     current.record(frame, width, height, camera);
     frame.run();
     if (!compare) return;
 
     // The previous stage, with the same camera where the two belong together; its left half is shown.
     const bool together = previous.stage->folder == current.stage->folder;
-    previous.record(scratchFrame, width, height, together ? camera : previous.stage->camera);
+    previous.record(scratchFrame, width, height, together ? camera : previous.camera());
     scratchFrame.run();
     for (int y = 0; y < height; ++y) {
         const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);

@@ -74,6 +74,12 @@ Expected<PreparedStage> PreparedStage::prepare(const Stage& stage, const std::ve
     return prepared;
 }
 
+const Camera& PreparedStage::camera() const
+{
+    static const Camera facing = {.position = {0.0f, 0.4f, -1.7f}};
+    return inputs->usersMesh ? facing : stage->camera;
+}
+
 void PreparedStage::record(Frame& frame, int width, int height, const Camera& camera) const
 {
     frame.reset();

@@ -22,8 +22,11 @@ public:
                                            const InputFiles& files = {});
 
     // Records the stage's draws on a cleared frame of a target of this size.
-    void record(Frame& frame, int width, int height) const { record(frame, width, height, stage->camera); }
+    void record(Frame& frame, int width, int height) const { record(frame, width, height, camera()); }
     void record(Frame& frame, int width, int height, const Camera& camera) const;
+
+    // The stage's, or one that looks at a mesh of the user's from the front.
+    const Camera& camera() const;
 
     const Stage* stage = nullptr;
     std::vector<Property> properties;

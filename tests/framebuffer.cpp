@@ -1,0 +1,43 @@
+// The render target: sizes, formats, and what it holds before anything is drawn.
+#include "pipeline/framebuffer.h"
+
+#include <string>
+
+#include "pipeline_fixture.h"
+
+using namespace fixture;
+
+TEST_CASE("framebuffer: each format has its own storage, of the right size")
+{
+    for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::rgba8Srgb, ColorFormat::rgba32f}) {
+        for (const DepthStorage depth : {DepthStorage::transient, DepthStorage::keep}) {
+            const Framebuffer target = makeTarget(7, 5, format, depth);
+            CHECK(target.width() == 7);
+            CHECK(target.height() == 5);
+            CHECK(target.format() == format);
+            CHECK(target.depthStorage() == depth);
+            CHECK(target.color32f().size() == (format == ColorFormat::rgba32f ? 35 : 0));
+            CHECK(target.color8().size() == (format == ColorFormat::rgba32f ? 0 : 35));
+            CHECK(target.depth().size() == (depth == DepthStorage::keep ? 35 : 0));
+            for (const glm::vec4& c : target.color32f()) CHECK(c == glm::vec4(0.0f));
+            for (const std::uint32_t c : target.color8()) CHECK(c == 0);
+            for (const float z : target.depth()) CHECK(z == 1.0f);
+        }
+    }
+}
+
+TEST_CASE("framebuffer: impossible sizes are errors that name the size and the limit (S-113)")
+{
+    const int sizes[][2] = {{0, 0},           {0, 4},     {4, 0},     {-1, 4},
+                            {4, -2147483647}, {16385, 1}, {1, 16385}, {2147483647, 2147483647}};
+    for (const auto& size : sizes) {
+        const Expected<Framebuffer> target = Framebuffer::create(size[0], size[1]);
+        REQUIRE_FALSE(target.has_value());
+        CHECK(target.error().message.find(std::to_string(size[0]) + "x" + std::to_string(size[1])) !=
+              std::string::npos);
+        CHECK(target.error().message.find("16384") != std::string::npos);
+    }
+    CHECK(Framebuffer::create(16384, 1).has_value());
+    CHECK(Framebuffer::create(1, 16384).has_value());
+    CHECK(Framebuffer::create(1, 1).has_value());
+}

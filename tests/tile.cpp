@@ -1,0 +1,155 @@
+// A tile in its own order of pixels: what is loaded is stored again, whatever the format, the size and the part of the
+// tile that lies in the target, and nothing else in the target changes.
+#include "pipeline/tile.h"
+
+#include <limits>
+
+#include "pipeline/output_merger.h"
+#include "pipeline_fixture.h"
+
+using namespace fixture;
+
+namespace {
+
+void fillWithNumbers(Framebuffer& target)
+{
+    std::uint32_t n = 1;
+    for (std::uint32_t& c : target.color8()) c = 0x9e3779b9u * n++;
+    for (glm::vec4& c : target.color32f()) {
+        for (int i = 0; i < 4; ++i) c[i] = static_cast<float>(n++);
+    }
+    for (float& z : target.depth()) z = 1.0f / static_cast<float>(n++);
+}
+
+const ColorFormat kFormats[] = {ColorFormat::rgba8, ColorFormat::rgba8Srgb, ColorFormat::rgba32f};
+const int kTileSizes[] = {16, 32, 64, 128};
+
+}  // namespace
+
+TEST_CASE("tile: load and store keep every bit (S-318, S-957)")
+{
+    const int sizes[][2] = {{1, 1}, {1, 33}, {33, 1}, {3, 3}, {16, 16}, {17, 31}, {130, 70}};
+    for (const ColorFormat format : kFormats) {
+        for (const DepthStorage depth : {DepthStorage::transient, DepthStorage::keep}) {
+            for (const int tileSize : kTileSizes) {
+                for (const auto& size : sizes) {
+                    Framebuffer source = makeTarget(size[0], size[1], format, depth);
+                    fillWithNumbers(source);
+                    Framebuffer copy = makeTarget(size[0], size[1], format, depth);
+                    Tile tile(tileSize, format);
+                    for (int y = 0; y < size[1]; y += tileSize) {
+                        for (int x = 0; x < size[0]; x += tileSize) {
+                            tile.load(x, y, source, 0.5f);
+                            tile.store(copy);
+                        }
+                    }
+                    CHECK(sameBits(source, copy));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("tile: store and clear write their own rectangle only (S-957)")
+{
+    for (const ColorFormat format : kFormats) {
+        Framebuffer target = makeTarget(50, 50, format, DepthStorage::keep);
+        fillWithNumbers(target);
+        const Framebuffer before = target;
+        const glm::vec4 color = {0.25f, 0.5f, 0.75f, 1.0f};
+        const auto changedOutside = [&](const Rectangle& r) {
+            int changed = 0, kept = 0;
+            for (int y = 0; y < 50; ++y) {
+                for (int x = 0; x < 50; ++x) {
+                    const auto i = static_cast<std::size_t>(y * 50 + x);
+                    const bool same = format == ColorFormat::rgba32f ? target.color32f()[i] == before.color32f()[i]
+                                                                     : target.color8()[i] == before.color8()[i];
+                    const bool inside = x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
+                    changed += !inside && (!same || target.depth()[i] != before.depth()[i]);
+                    kept += inside && (same || target.depth()[i] == before.depth()[i]);
+                }
+            }
+            return changed + kept;
+        };
+        Tile tile(16, format);
+        tile.clear(32, 16, color, 2.0f);
+        tile.store(target);
+        CHECK(changedOutside({32, 16, 48, 32}) == 0);
+
+        target = before;
+        tile.clear(48, 48, color, 2.0f);  // two pixels of it are in the target
+        tile.store(target);
+        CHECK(changedOutside({48, 48, 50, 50}) == 0);
+
+        target = before;
+        clearRectangle(target, {45, -10, 61, 6}, color, 2.0f);
+        CHECK(changedOutside({45, 0, 50, 6}) == 0);
+    }
+}
+
+TEST_CASE("tile: a cleared tile and a cleared rectangle are the same, also for colours that no format holds (S-951)")
+{
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    for (const ColorFormat format : kFormats) {
+        for (const glm::vec4& color : {glm::vec4(0.1f, 0.5f, 0.9f, 0.3f), glm::vec4(-1.0f, 2.0f, 1e30f, -0.0f),
+                                       glm::vec4(nan, infinity, -infinity, nan)}) {
+            Framebuffer a = makeTarget(20, 20, format), b = makeTarget(20, 20, format), c = makeTarget(20, 20, format);
+            Tile tile(32, format);
+            tile.clear(0, 0, color, 1.0f);
+            tile.store(a);
+            clearRectangle(b, {0, 0, 32, 32}, color, 1.0f);
+            CHECK(sameBits(a, b));
+            Frame frame(c, {1, 16});
+            frame.clear(color);
+            frame.run();
+            CHECK(allFinite(c));
+            const bool finite = std::isfinite(color.x);
+            if (finite) CHECK(sameBits(a, c));
+        }
+    }
+    CHECK(packColor({0, 0, 0, 1}, ColorFormat::rgba8) == 0xff000000u);
+    CHECK(packColor({1, 0, 0, 0}, ColorFormat::rgba8) == 0x000000ffu);
+    CHECK(packColor({nan, infinity, -infinity, 2}, ColorFormat::rgba8) == 0xff00ff00u);
+    CHECK(packColor({0.5f, 0.5f, 0.5f, 0.5f}, ColorFormat::rgba8) == 0x80808080u);
+    CHECK(packColor({0.5f, 0.5f, 0.5f, 0.5f}, ColorFormat::rgba8Srgb) == 0x80bcbcbcu);  // alpha is linear
+}
+
+TEST_CASE("tile: blocks hold the pixels that their lanes name")
+{
+    Framebuffer target = makeTarget(64, 64, ColorFormat::rgba32f, DepthStorage::keep);
+    fillWithNumbers(target);
+    Tile tile(32, ColorFormat::rgba32f);
+    tile.load(32, 0, target, 1.0f);
+    int wrong = 0;
+    for (int y = 0; y < 32; y += kBlockHeight) {
+        for (int x = 32; x < 64; x += kBlockWidth) {
+            const int block = tile.blockAt(x, y);
+            float nearest = 2.0f, farthest = -1.0f;
+            for (int lane = 0; lane < kLanes; ++lane) {
+                const auto i = static_cast<std::size_t>((y + laneY(lane)) * 64 + x + laneX(lane));
+                for (int c = 0; c < 4; ++c) wrong += tile.color32f(block)[c * kLanes + lane] != target.color32f()[i][c];
+                wrong += tile.depth(block)[lane] != target.depth()[i];
+                nearest = std::fmin(nearest, target.depth()[i]);
+                farthest = std::fmax(farthest, target.depth()[i]);
+            }
+            wrong += tile.bounds(block).nearest > nearest || tile.bounds(block).farthest < farthest;
+        }
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("tile: nothing of the tile before remains after clear and load")
+{
+    Framebuffer target = makeTarget(40, 40, ColorFormat::rgba8, DepthStorage::transient);
+    Tile tile(32, ColorFormat::rgba8);
+    tile.clear(0, 0, glm::vec4(1.0f), 0.25f);
+    tile.load(32, 32, target, 0.75f);
+    for (int block = 0; block < 32 * 32 / kLanes; ++block) {
+        for (int lane = 0; lane < kLanes; ++lane) {
+            REQUIRE(tile.color8(block)[lane] == 0);
+            REQUIRE(tile.depth(block)[lane] == 0.75f);
+        }
+        REQUIRE(tile.bounds(block).nearest == 0.75f);
+        REQUIRE(tile.bounds(block).farthest == 0.75f);
+    }
+}
