@@ -285,7 +285,7 @@ TEST_CASE("clip: corners at 1e30 and 3.4e34 leave the visible edges in place (S-
         const float large = random.chance(2) ? 1e30f : 3.4e34f;
         const auto corner = [&](bool far) {
             const float w = random.chance(2) ? 1.0f : random.real(0.01f, 10.0f);
-            if (!far) return glm::vec4(random.real(-1, 1) * w, random.real(-1, 1) * w, 0.5f * w, w);
+            if (!far) return glm::vec4{random.real(-1, 1) * w, random.real(-1, 1) * w, 0.5f * w, w};
             // Some coordinates large, in any combination; depth stays inside so that the whole triangle counts.
             glm::vec4 p = {random.real(-1, 1), random.real(-1, 1), 0.5f * w, w};
             const int which = random.between(1, 3);

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include "common/stage.h"
 #include "temporary_folder.h"
@@ -37,10 +37,11 @@ std::string contents(const fs::path& path)
 // Runs the program in `folder`.
 Outcome run(const fs::path& folder, const std::string& arguments, const std::string& environment = "")
 {
-    const std::string command = "cd '" + folder.string() + "' && " + environment + " '" RELIEF_PROGRAM "' " + arguments +
-                                " >out.txt 2>err.txt";
+    const std::string command =
+        "cd '" + folder.string() + "' && " + environment + " '" RELIEF_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
     const int status = std::system(command.c_str());
-    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out.txt"), contents(folder / "err.txt")};
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out.txt"),
+                    contents(folder / "err.txt")};
     fs::remove(folder / "out.txt");
     fs::remove(folder / "err.txt");
     return outcome;
@@ -64,7 +65,10 @@ void checkRefused(const fs::path& folder, const std::string& arguments, const st
     CHECK(count() == before);
 }
 
-void write(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+void write(const fs::path& path, const std::string& bytes)
+{
+    std::ofstream(path, std::ios::binary) << bytes;
+}
 
 // A PNG's first bytes: signature and header chunk with this size (and a checksum that no reader gets to).
 std::string pngHeader(std::uint32_t width, std::uint32_t height)
@@ -105,7 +109,9 @@ TEST_CASE("command line: help at every level, and the list of stages")
 TEST_CASE("command line: render writes the picture of the size asked for")
 {
     const TemporaryFolder folder;
-    CHECK(run(folder.path, "render 1.9 --size 123x45 -o p.png --set bumpScale=2 --set tint=1,0.5,0.5 --threads 2").code == 0);
+    CHECK(
+        run(folder.path, "render 1.9 --size 123x45 -o p.png --set bumpScale=2 --set tint=1,0.5,0.5 --threads 2").code ==
+        0);
     const auto image = relief::readImage(folder.path / "p.png");
     REQUIRE(image);
     CHECK(std::get<relief::Image8>(*image).width == 123);
@@ -136,7 +142,8 @@ TEST_CASE("command line: unknown stage, property, value and option")
 TEST_CASE("command line: sizes")
 {
     const TemporaryFolder folder;
-    for (const std::string size : {"0x0", "1000000x1000000", "10", "10x", "x10", "-5x10", "10x10x10", "axb", "99999999999x1"}) {
+    for (const std::string size :
+         {"0x0", "1000000x1000000", "10", "10x", "x10", "-5x10", "10x10x10", "axb", "99999999999x1"}) {
         checkRefused(folder.path, "render 1.06 --size " + size, {size, "WIDTHxHEIGHT"});
     }
     checkRefused(folder.path, "hash 1.06 --size 0x0", {"0x0"});
@@ -207,7 +214,9 @@ TEST_CASE("command line: real files of Debian's glmark2-data")
         return;
     }
     const TemporaryFolder folder;
-    CHECK(run(folder.path, "render 1.09 --size 64x36 -o a.png --height /usr/share/glmark2/textures/asteroid-height-map.png").code == 0);
+    CHECK(run(folder.path,
+              "render 1.09 --size 64x36 -o a.png --height /usr/share/glmark2/textures/asteroid-height-map.png")
+              .code == 0);
     CHECK(run(folder.path, "render 1.01 --size 64x36 -o b.png --mesh /usr/share/glmark2/models/bunny.obj").code == 0);
     CHECK(fs::file_size(folder.path / "a.png") > 1000);
     CHECK(fs::file_size(folder.path / "b.png") > 1000);
@@ -231,7 +240,8 @@ TEST_CASE("command line: the window opens, shows frames and closes under SDL's d
 TEST_CASE("command line: explain counts, hash does not depend on threads or tiles")
 {
     const TemporaryFolder folder;
-    const nlohmann::json counts = nlohmann::json::parse(run(folder.path, "explain 1.01 --json --size 96x54").out)["counts"];
+    const nlohmann::json counts =
+        nlohmann::json::parse(run(folder.path, "explain 1.01 --json --size 96x54").out)["counts"];
     CHECK(counts["triangles submitted"] == 2);
     CHECK(counts["rasterised"] == 2);
     CHECK(counts["pixels shaded"].get<int>() > 500);

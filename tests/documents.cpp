@@ -65,8 +65,8 @@ TEST_CASE("documents: every page, golden and stage source belongs to a registere
     std::set<std::string> folders;
     for (const Stage& stage : allStages()) folders.insert(stage.folder);
     for (const std::string& folder : folders) {
-        for (const auto& [place, ending] : std::map<std::string, std::string>{
-                 {"docs", ".md"}, {"tests/golden", ".png"}, {"samples", ".cpp"}}) {
+        for (const auto& [place, ending] :
+             std::map<std::string, std::string>{{"docs", ".md"}, {"tests/golden", ".png"}, {"samples", ".cpp"}}) {
             for (const fs::path& path : filesEndingIn(kSource / place / folder, ending)) {
                 CAPTURE(path);
                 CHECK(known.count(folder + "/" + path.stem().string()) == 1);
@@ -123,7 +123,8 @@ TEST_CASE("documents: the engine's folders include downwards only")
         for (const std::string ending : {".h", ".cpp"}) {
             for (const fs::path& path : filesEndingIn(kSource / "engine" / folder, ending)) {
                 const std::string text = contents(path);
-                for (auto it = std::sregex_iterator(text.begin(), text.end(), include); it != std::sregex_iterator(); ++it) {
+                for (auto it = std::sregex_iterator(text.begin(), text.end(), include); it != std::sregex_iterator();
+                     ++it) {
                     const std::string used = (*it)[1].str();
                     CAPTURE(path);
                     CAPTURE(used);

@@ -185,7 +185,8 @@ TEST_CASE("interpolate: errors over random triangles, w ratios up to 1e4 (S-401,
         float z[3], w[3], v[3];
         for (int k = 0; k < 3; ++k) {
             z[k] = random.real(0, 1);
-            w[k] = std::ldexp(random.real(1, 2), random.between(-6, 6));
+            w[k] = random.real(1, 2);
+            w[k] = std::ldexp(w[k], random.between(-6, 6));
             v[k] = random.real(-1, 1);
         }
         keepWorst(worst, measure(c, z, w, v, pixels));
@@ -312,7 +313,10 @@ TEST_CASE("interpolate: very large, very small and very different w (S-407)")
         if (!isClockwise(c)) continue;
         const int base = random.between(-99, 120);
         float w[3];
-        for (float& one : w) one = std::ldexp(random.real(1, 2), base + random.between(0, 6));
+        for (float& one : w) {
+            one = random.real(1, 2);
+            one = std::ldexp(one, base + random.between(0, 6));
+        }
         keepWorst(worst, measure(c, {0, 1, 0.5f}, w, {random.real(0, 1), random.real(0, 1), 1.0f}, pixels));
     }
     CHECK(worst.finite);

@@ -369,8 +369,9 @@ TEST_CASE("output merger: an opaque source hides what is below, a transparent on
     for (int i = 0; i < trials(20000); ++i) {
         float4 source, destination;
         for (int c = 0; c < 4; ++c) {
-            source[c] = std::ldexp(random.real(-1, 1), random.between(-20, 20));
-            destination[c] = std::ldexp(random.real(-1, 1), random.between(-20, 20));
+            const float s = random.real(-1, 1), d = random.real(-1, 1);
+            source[c] = std::ldexp(s, random.between(-20, 20));
+            destination[c] = std::ldexp(d, random.between(-20, 20));
         }
         source.w = 1.0f;
         const float4 opaque = blendColors<Blend::alpha>(source, destination);

@@ -33,6 +33,8 @@ constexpr int trials(int full)
 
 // --- random numbers: SplitMix64 ---
 
+// Where one expression draws several numbers it does so within braces: compilers evaluate arguments in any order.
+
 class Random
 {
 public:
@@ -216,6 +218,11 @@ inline void addTriangle(Mesh& mesh, const TestVertex& a, const TestVertex& b, co
         mesh.normals.emplace_back(v.position.w, 0.0f, 0.0f);
         mesh.tangents.push_back(v.value);
     }
+}
+
+inline void addTriangle(Mesh& mesh, const std::array<TestVertex, 3>& v)
+{
+    addTriangle(mesh, v[0], v[1], v[2]);
 }
 
 inline glm::vec4 pixelPosition(Point p, float depth = 0.5f, float w = 1.0f)

@@ -31,7 +31,7 @@ class Raster
 {
 public:
     Raster(int w, int h)
-        : width(w), height(h), counts(static_cast<std::size_t>(w * h)), blocks(w * h / kLanes + w + h + 64)
+        : width(w), height(h), counts(static_cast<std::size_t>(w * h)), blocks(static_cast<std::size_t>(w * h + 64))
     {
     }
 

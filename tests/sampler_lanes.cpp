@@ -188,3 +188,46 @@ TEST_CASE("sampler_lanes: anisotropic sampling averages along the longer side, a
     s.maxAnisotropy = 1;
     CHECK(tex2Dgrad(s, atOddColumn, small, tall).x[0] == doctest::Approx(0.5).epsilon(0.01));
 }
+
+TEST_CASE("sampler_lanes: one hash of everything, for any number of lanes, compiler and instruction set")
+{
+    std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+    const auto add = [&hash](std::uint64_t value) { hash = (hash ^ value) * 1099511628211u; };
+    FetchCounters total;
+    for (int round = 0; round < 72; ++round) {
+        const Texture texture = randomTexture(kFormats[round % 3], round % 2 != 0 ? 64 : 37, round % 5 != 0 ? 48 : 3);
+        sampler2D s{.texture = &texture, .filter = kFilters[round / 3 % 3], .u = kModes[round % 4]};
+        s.v = kModes[round / 4 % 4];
+        s.maxAnisotropy = round % 2 != 0 ? 16 : 1;
+        s.lodBias = round % 7 == 0 ? -0.4f : 0.0f;
+        s.borderColor = {0.1f, 0.2f, 0.3f, 0.4f};
+
+        // A turned plane in perspective, 16x16 pixels, of which some count. The order of the hash is the pixels'.
+        std::uint32_t image[16][16] = {};
+        const float turn = static_cast<float>(round) * 0.37f, zoom = 0.003f * static_cast<float>(1 + round % 24);
+        fetchCounters = {};
+        for (int top = 0; top < 16; top += kBlockHeight) {
+            for (int left = 0; left < 16; left += kBlockWidth) {
+                const Float x = perLane([=](int i) { return static_cast<float>(left + laneX(i)); });
+                const Float y = perLane([=](int i) { return static_cast<float>(top + laneY(i)); });
+                const Float w = zoom / (1.0f + y * (0.05f * static_cast<float>(round % 3)));
+                const unsigned covered = (x * 3.0f + y * 7.0f < static_cast<float>(20 + 2 * round)).bits();
+                const ActiveLanes counting(wholeQuads(covered));
+                const float4 colour = tex2D(s, {(x + y * turn) * w - 1.0f, (y - x * turn) * w + 0.3f});
+                for (int i = 0; i < kLanes; ++i) {
+                    std::uint32_t bits = 0;
+                    for (int c = 0; c < 4; ++c) bits = bits * 31u + static_cast<std::uint32_t>(asInt(colour[c])[i]);
+                    image[top + laneY(i)][left + laneX(i)] = (activeLanes >> i & 1u) != 0 ? bits : 0u;
+                }
+            }
+        }
+        for (const auto& row : image) {
+            for (const std::uint32_t bits : row) add(bits);
+        }
+        total += fetchCounters;
+    }
+    add(total.nearest + 3 * total.bilinear + 5 * total.trilinear + 7 * total.anisotropic);
+    add(total.magnified + 3 * total.taps + 5 * total.secondLevelSkipped);
+    CHECK(total.taps > 1000);
+    CHECK(hash == 7090569058970184443u);
+}

@@ -14,7 +14,8 @@ Comparison compare(int width, int height, std::span<const std::uint8_t> actual, 
     result.amplified.resize(actual.size());
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 4;
+            const std::size_t at =
+                (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 4;
             PixelDifference pixel{x, y, {}, {}};
             std::memcpy(pixel.actual, actual.data() + at, 4);
             std::memcpy(pixel.expected, expected.data() + at, 4);
@@ -35,8 +36,9 @@ std::string Comparison::report() const
     std::string text = std::to_string(differing) + " pixels differ\n";
     for (const PixelDifference& p : first) {
         char line[128];
-        std::snprintf(line, sizeof line, "  (%d, %d)  is %3d %3d %3d %3d  should be %3d %3d %3d %3d\n", p.x, p.y, p.actual[0],
-                      p.actual[1], p.actual[2], p.actual[3], p.expected[0], p.expected[1], p.expected[2], p.expected[3]);
+        std::snprintf(line, sizeof line, "  (%d, %d)  is %3d %3d %3d %3d  should be %3d %3d %3d %3d\n", p.x, p.y,
+                      p.actual[0], p.actual[1], p.actual[2], p.actual[3], p.expected[0], p.expected[1], p.expected[2],
+                      p.expected[3]);
         text += line;
     }
     return text;

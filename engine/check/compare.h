@@ -17,9 +17,9 @@ struct PixelDifference
 
 struct Comparison
 {
-    std::uint64_t differing = 0;              // pixels
-    std::vector<PixelDifference> first;       // the first ten of them, row by row
-    std::vector<std::uint8_t> amplified;      // RGBA: 8 times the absolute difference of each channel, opaque
+    std::uint64_t differing = 0;          // pixels
+    std::vector<PixelDifference> first;   // the first ten of them, row by row
+    std::vector<std::uint8_t> amplified;  // RGBA: 8 times the absolute difference of each channel, opaque
 
     bool same() const { return differing == 0; }
 

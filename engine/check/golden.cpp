@@ -42,8 +42,9 @@ Expected<void> checkGolden(const Framebuffer& target, const std::filesystem::pat
         return fail("no golden: " + why + remedy + (kept ? "" : " (" + kept.error().message + ")"));
     }
     if (expected->width != target.width() || expected->height != target.height()) {
-        return fail(golden.string() + ": is " + std::to_string(expected->width) + "x" + std::to_string(expected->height) +
-                    ", the picture " + std::to_string(target.width()) + "x" + std::to_string(target.height()) + remedy);
+        return fail(golden.string() + ": is " + std::to_string(expected->width) + "x" +
+                    std::to_string(expected->height) + ", the picture " + std::to_string(target.width()) + "x" +
+                    std::to_string(target.height()) + remedy);
     }
     const Comparison comparison = compare(target.width(), target.height(), bytesOf(target), expected->pixels);
     if (comparison.same()) return {};
@@ -51,8 +52,8 @@ Expected<void> checkGolden(const Framebuffer& target, const std::filesystem::pat
     if (!actual) return actual;
     const Expected<void> difference = keep(".difference.png", comparison.amplified);
     if (!difference) return difference;
-    return fail(golden.string() + ": " + comparison.report() + "written: " +
-                (failures / (golden.stem().string() + ".actual.png, .difference.png")).string() + remedy);
+    return fail(golden.string() + ": " + comparison.report() +
+                "written: " + (failures / (golden.stem().string() + ".actual.png, .difference.png")).string() + remedy);
 }
 
 Expected<void> updateGolden(const Framebuffer& target, const std::filesystem::path& golden)

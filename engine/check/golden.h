@@ -9,9 +9,9 @@
 
 namespace relief {
 
-// Compares an 8-bit target with a golden file. An error, whose message says what to do, where the file is missing or cannot
-// be read, has another size, or differs in any pixel. Then the picture and the difference (8 times enlarged) are written
-// to `failures` as NAME.actual.png and NAME.difference.png, and the first differing pixels are in the message.
+// Compares an 8-bit target with a golden file. An error, whose message says what to do, where the file is missing or
+// cannot be read, has another size, or differs in any pixel. Then the picture and the difference (8 times enlarged) are
+// written to `failures` as NAME.actual.png and NAME.difference.png, and the first differing pixels are in the message.
 Expected<void> checkGolden(const Framebuffer& target, const std::filesystem::path& golden,
                            const std::filesystem::path& failures);
 

@@ -7,10 +7,22 @@
 
 namespace relief {
 
-inline Float ddx(Float v) { return permuteQuad<1, 1, 3, 3>(v) - permuteQuad<0, 0, 2, 2>(v); }
-inline Float ddy(Float v) { return permuteQuad<2, 3, 2, 3>(v) - permuteQuad<0, 1, 0, 1>(v); }
-inline Float ddx_coarse(Float v) { return permuteQuad<1, 1, 1, 1>(v) - permuteQuad<0, 0, 0, 0>(v); }
-inline Float ddy_coarse(Float v) { return permuteQuad<2, 2, 2, 2>(v) - permuteQuad<0, 0, 0, 0>(v); }
+inline Float ddx(Float v)
+{
+    return permuteQuad<1, 1, 3, 3>(v) - permuteQuad<0, 0, 2, 2>(v);
+}
+inline Float ddy(Float v)
+{
+    return permuteQuad<2, 3, 2, 3>(v) - permuteQuad<0, 1, 0, 1>(v);
+}
+inline Float ddx_coarse(Float v)
+{
+    return permuteQuad<1, 1, 1, 1>(v) - permuteQuad<0, 0, 0, 0>(v);
+}
+inline Float ddy_coarse(Float v)
+{
+    return permuteQuad<2, 2, 2, 2>(v) - permuteQuad<0, 0, 0, 0>(v);
+}
 
 template <int size>
 FloatN<size> ddx(const FloatN<size>& v)

@@ -29,11 +29,26 @@ FloatN<size> map(const FloatN<size>& a, const FloatN<size>& b, Function function
 
 // --- of one value, and of each component ---
 
-inline Float lerp(Float a, Float b, Float t) { return a + (b - a) * t; }
-inline Float step(Float edge, Float x) { return select(x >= edge, Float(1.0f), Float(0.0f)); }
-inline Float sign(Float x) { return select(x > 0.0f, Float(1.0f), select(x < 0.0f, Float(-1.0f), Float(0.0f))); }
-inline Float rcp(Float x) { return 1.0f / x; }
-inline Float rsqrt(Float x) { return 1.0f / sqrt(x); }
+inline Float lerp(Float a, Float b, Float t)
+{
+    return a + (b - a) * t;
+}
+inline Float step(Float edge, Float x)
+{
+    return select(x >= edge, Float(1.0f), Float(0.0f));
+}
+inline Float sign(Float x)
+{
+    return select(x > 0.0f, Float(1.0f), select(x < 0.0f, Float(-1.0f), Float(0.0f)));
+}
+inline Float rcp(Float x)
+{
+    return 1.0f / x;
+}
+inline Float rsqrt(Float x)
+{
+    return 1.0f / sqrt(x);
+}
 inline Float smoothstep(Float low, Float high, Float x)
 {
     const Float t = saturate((x - low) / (high - low));
@@ -41,19 +56,40 @@ inline Float smoothstep(Float low, Float high, Float x)
 }
 
 template <int size>
-FloatN<size> saturate(const FloatN<size>& v) { return detail::map(v, [](Float x) { return saturate(x); }); }
+FloatN<size> saturate(const FloatN<size>& v)
+{
+    return detail::map(v, [](Float x) { return saturate(x); });
+}
 template <int size>
-FloatN<size> abs(const FloatN<size>& v) { return detail::map(v, [](Float x) { return abs(x); }); }
+FloatN<size> abs(const FloatN<size>& v)
+{
+    return detail::map(v, [](Float x) { return abs(x); });
+}
 template <int size>
-FloatN<size> floor(const FloatN<size>& v) { return detail::map(v, [](Float x) { return floor(x); }); }
+FloatN<size> floor(const FloatN<size>& v)
+{
+    return detail::map(v, [](Float x) { return floor(x); });
+}
 template <int size>
-FloatN<size> frac(const FloatN<size>& v) { return detail::map(v, [](Float x) { return frac(x); }); }
+FloatN<size> frac(const FloatN<size>& v)
+{
+    return detail::map(v, [](Float x) { return frac(x); });
+}
 template <int size>
-FloatN<size> sqrt(const FloatN<size>& v) { return detail::map(v, [](Float x) { return sqrt(x); }); }
+FloatN<size> sqrt(const FloatN<size>& v)
+{
+    return detail::map(v, [](Float x) { return sqrt(x); });
+}
 template <int size>
-FloatN<size> sign(const FloatN<size>& v) { return detail::map(v, [](Float x) { return sign(x); }); }
+FloatN<size> sign(const FloatN<size>& v)
+{
+    return detail::map(v, [](Float x) { return sign(x); });
+}
 template <int size>
-FloatN<size> pow(const FloatN<size>& v, Float y) { return detail::map(v, [y](Float x) { return pow(x, y); }); }
+FloatN<size> pow(const FloatN<size>& v, Float y)
+{
+    return detail::map(v, [y](Float x) { return pow(x, y); });
+}
 template <int size>
 FloatN<size> min(const FloatN<size>& a, const FloatN<size>& b)
 {
@@ -70,7 +106,10 @@ FloatN<size> clamp(const FloatN<size>& v, Float low, Float high)
     return detail::map(v, [low, high](Float x) { return clamp(x, low, high); });
 }
 template <int size>
-FloatN<size> lerp(const FloatN<size>& a, const FloatN<size>& b, Float t) { return a + (b - a) * t; }
+FloatN<size> lerp(const FloatN<size>& a, const FloatN<size>& b, Float t)
+{
+    return a + (b - a) * t;
+}
 template <int size>
 FloatN<size> select(Mask m, const FloatN<size>& a, const FloatN<size>& b)
 {
@@ -79,9 +118,18 @@ FloatN<size> select(Mask m, const FloatN<size>& a, const FloatN<size>& b)
 
 // --- of vectors ---
 
-inline Float dot(const float2& a, const float2& b) { return a.x * b.x + a.y * b.y; }
-inline Float dot(const float3& a, const float3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Float dot(const float4& a, const float4& b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
+inline Float dot(const float2& a, const float2& b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+inline Float dot(const float3& a, const float3& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline Float dot(const float4& a, const float4& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+}
 
 inline float3 cross(const float3& a, const float3& b)
 {
@@ -89,9 +137,15 @@ inline float3 cross(const float3& a, const float3& b)
 }
 
 template <int size>
-Float length(const FloatN<size>& v) { return sqrt(dot(v, v)); }
+Float length(const FloatN<size>& v)
+{
+    return sqrt(dot(v, v));
+}
 template <int size>
-Float distance(const FloatN<size>& a, const FloatN<size>& b) { return length(FloatN<size>(a - b)); }
+Float distance(const FloatN<size>& a, const FloatN<size>& b)
+{
+    return length(FloatN<size>(a - b));
+}
 
 // The vector of length 1 in the same direction. The zero vector, and one with a NaN or an infinity in it, becomes the
 // zero vector: what HLSL leaves undefined must not become a NaN in a picture. Any other length works, down to the
@@ -122,13 +176,25 @@ inline float3 reflect(const float3& incident, const float3& normal)
 
 // --- of matrices; vectors are columns on the right, rows on the left ---
 
-inline float3 mul(const float3x3& m, const float3& v) { return m[0] * v.x + m[1] * v.y + m[2] * v.z; }
-inline float4 mul(const float4x4& m, const float4& v) { return m[0] * v.x + m[1] * v.y + m[2] * v.z + m[3] * v.w; }
-inline float3 mul(const float3& v, const float3x3& m) { return {dot(v, m[0]), dot(v, m[1]), dot(v, m[2])}; }
+inline float3 mul(const float3x3& m, const float3& v)
+{
+    return m[0] * v.x + m[1] * v.y + m[2] * v.z;
+}
+inline float4 mul(const float4x4& m, const float4& v)
+{
+    return m[0] * v.x + m[1] * v.y + m[2] * v.z + m[3] * v.w;
+}
+inline float3 mul(const float3& v, const float3x3& m)
+{
+    return {dot(v, m[0]), dot(v, m[1]), dot(v, m[2])};
+}
 inline float4 mul(const float4& v, const float4x4& m)
 {
     return {dot(v, m[0]), dot(v, m[1]), dot(v, m[2]), dot(v, m[3])};
 }
-inline float3x3 upper3x3(const float4x4& m) { return {m[0].xyz(), m[1].xyz(), m[2].xyz()}; }  // HLSL: (float3x3)m
+inline float3x3 upper3x3(const float4x4& m)
+{
+    return {m[0].xyz(), m[1].xyz(), m[2].xyz()};
+}  // HLSL: (float3x3)m
 
 }  // namespace relief

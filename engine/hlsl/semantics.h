@@ -2,8 +2,8 @@
 //
 //     struct Interpolators { SV_POSITION position; TEXCOORD<0, float4> uv; TEXCOORD<1, float3> normal; };
 //
-// A field is used like its value. There is no list of fields to keep beside the struct: forEachField() walks a struct as
-// it is written.
+// A field is used like its value. There is no list of fields to keep beside the struct: forEachField() walks a struct
+// as it is written.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,11 @@
 namespace relief {
 
 // How a value gets from the vertices to a pixel.
-enum class Interpolation { perspective, affine };
+enum class Interpolation
+{
+    perspective,
+    affine
+};
 
 // A value with a meaning. `Meaning` is the semantic's tag, `T` one of Float, float2, float3, float4.
 template <class Meaning, class T>
@@ -29,10 +33,7 @@ struct Semantic : T
 
     Semantic() = default;
     template <class U>
-        requires std::convertible_to<U, T>
-    Semantic(const U& source) : T(source)
-    {
-    }
+    requires std::convertible_to<U, T> Semantic(const U& source) : T(source) {}
 };
 
 namespace semantic {
@@ -112,13 +113,25 @@ template <int size>
 inline constexpr int kComponents<FloatN<size>> = size;
 
 template <class T>
-concept IsSemantic = requires { typename T::Value; T::kName; T::kIndex; T::kIsPosition; } &&
-                     std::is_base_of_v<typename T::Value, T>;
+concept IsSemantic = requires
+{
+    typename T::Value;
+    T::kName;
+    T::kIndex;
+    T::kIsPosition;
+}
+&&std::is_base_of_v<typename T::Value, T>;
 
 // Component i of a value of lanes.
-inline Float& component(Float& v, int) { return v; }
+inline Float& component(Float& v, int)
+{
+    return v;
+}
 template <int size>
-Float& component(FloatN<size>& v, int i) { return v[i]; }
+Float& component(FloatN<size>& v, int i)
+{
+    return v[i];
+}
 
 namespace detail {
 
@@ -141,7 +154,10 @@ using Any = AnySemantic;
 template <class T, class... Rest, std::size_t... i>
 constexpr bool takes(std::index_sequence<i...>)
 {
-    return requires { T{Any<i>{}..., Rest{}...}; };
+    return requires
+    {
+        T{Any<i>{}..., Rest{}...};
+    };
 }
 
 inline constexpr int kMaxFields = 12;
@@ -159,7 +175,9 @@ constexpr int fieldCount()
         if constexpr (!detail::takes<T>(Fields{})) {
             return fieldCount<T, n - 1>();
         } else {
-            return detail::takes<T, detail::Anything>(Fields{}) ? -1 : n;  // one more field, of another type
+            constexpr bool otherField = detail::takes<T, detail::Anything>(Fields{});
+            constexpr bool tooMany = detail::takes<T, detail::AnySemantic>(Fields{});  // more than kMaxFields
+            return otherField || tooMany ? -1 : n;
         }
     }
 }

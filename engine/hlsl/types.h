@@ -32,27 +32,63 @@ template <class T>
 concept Number = std::is_arithmetic_v<T>;
 
 template <int size, Number N>
-FloatN<size> operator+(const FloatN<size>& a, N b) { return a + Float(b); }
+FloatN<size> operator+(const FloatN<size>& a, N b)
+{
+    return a + Float(b);
+}
 template <int size, Number N>
-FloatN<size> operator+(N a, const FloatN<size>& b) { return Float(a) + b; }
+FloatN<size> operator+(N a, const FloatN<size>& b)
+{
+    return Float(a) + b;
+}
 template <int size, Number N>
-FloatN<size> operator-(const FloatN<size>& a, N b) { return a - Float(b); }
+FloatN<size> operator-(const FloatN<size>& a, N b)
+{
+    return a - Float(b);
+}
 template <int size, Number N>
-FloatN<size> operator-(N a, const FloatN<size>& b) { return Float(a) - b; }
+FloatN<size> operator-(N a, const FloatN<size>& b)
+{
+    return Float(a) - b;
+}
 template <int size, Number N>
-FloatN<size> operator*(const FloatN<size>& a, N b) { return a * Float(b); }
+FloatN<size> operator*(const FloatN<size>& a, N b)
+{
+    return a * Float(b);
+}
 template <int size, Number N>
-FloatN<size> operator*(N a, const FloatN<size>& b) { return Float(a) * b; }
+FloatN<size> operator*(N a, const FloatN<size>& b)
+{
+    return Float(a) * b;
+}
 template <int size, Number N>
-FloatN<size> operator/(const FloatN<size>& a, N b) { return a / Float(b); }
+FloatN<size> operator/(const FloatN<size>& a, N b)
+{
+    return a / Float(b);
+}
 template <int size, Number N>
-FloatN<size> operator/(N a, const FloatN<size>& b) { return Float(a) / b; }
+FloatN<size> operator/(N a, const FloatN<size>& b)
+{
+    return Float(a) / b;
+}
 
 // A uniform: the same plain value in every lane.
-inline float2 broadcast(const glm::vec2& v) { return {v.x, v.y}; }
-inline float3 broadcast(const glm::vec3& v) { return {v.x, v.y, v.z}; }
-inline float4 broadcast(const glm::vec4& v) { return {v.x, v.y, v.z, v.w}; }
-inline float3x3 broadcast(const glm::mat3& m) { return {broadcast(m[0]), broadcast(m[1]), broadcast(m[2])}; }
+inline float2 broadcast(const glm::vec2& v)
+{
+    return {v.x, v.y};
+}
+inline float3 broadcast(const glm::vec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+inline float4 broadcast(const glm::vec4& v)
+{
+    return {v.x, v.y, v.z, v.w};
+}
+inline float3x3 broadcast(const glm::mat3& m)
+{
+    return {broadcast(m[0]), broadcast(m[1]), broadcast(m[2])};
+}
 inline float4x4 broadcast(const glm::mat4& m)
 {
     return {broadcast(m[0]), broadcast(m[1]), broadcast(m[2]), broadcast(m[3])};

@@ -25,9 +25,15 @@ public:
 };
 
 // To the nearest float.
-inline Float toFloat(Double a) { return Float(native::toFloat(a.low, a.high)); }
+inline Float toFloat(Double a)
+{
+    return Float(native::toFloat(a.low, a.high));
+}
 
 // Bit i is set where lane i is below zero.
-inline unsigned negativeBits(Double a) { return native::negativeBits(a.low, a.high); }
+inline unsigned negativeBits(Double a)
+{
+    return native::negativeBits(a.low, a.high);
+}
 
 }  // namespace relief

@@ -17,7 +17,7 @@ class Float
 public:
     Float() = default;
     template <class Number>
-        requires std::is_arithmetic_v<Number>
+    requires std::is_arithmetic_v<Number>
     constexpr Float(Number number) : value(static_cast<float>(number) - native::FloatVector{})  // keeps -0
     {
     }
@@ -57,33 +57,75 @@ public:
     native::FloatVector value;
 };
 
-inline Float select(Mask m, Float a, Float b) { return Float(native::select(m.value, a.value, b.value)); }
-inline Mask isnan(Float a) { return a != a; }
+inline Float select(Mask m, Float a, Float b)
+{
+    return Float(native::select(m.value, a.value, b.value));
+}
+inline Mask isnan(Float a)
+{
+    return a != a;
+}
 
-inline Int asInt(Float a) { return Int((native::IntVector)a.value); }
-inline Float asFloat(Int a) { return Float((native::FloatVector)a.value); }
+inline Int asInt(Float a)
+{
+    return Int((native::IntVector)a.value);
+}
+inline Float asFloat(Int a)
+{
+    return Float((native::FloatVector)a.value);
+}
 
-inline Float abs(Float a) { return asFloat(asInt(a) & 0x7fffffff); }
-inline Float sqrt(Float a) { return Float(native::sqrt(a.value)); }
-inline Float floor(Float a) { return Float(native::floor(a.value)); }
-inline Float ceil(Float a) { return -floor(-a); }
-inline Float frac(Float a) { return a - floor(a); }
+inline Float abs(Float a)
+{
+    return asFloat(asInt(a) & 0x7fffffff);
+}
+inline Float sqrt(Float a)
+{
+    return Float(native::sqrt(a.value));
+}
+inline Float floor(Float a)
+{
+    return Float(native::floor(a.value));
+}
+inline Float ceil(Float a)
+{
+    return -floor(-a);
+}
+inline Float frac(Float a)
+{
+    return a - floor(a);
+}
 
 // The number, where one of the two is NaN (IEEE 754-2019 minimumNumber; D3D 11.3, 22.19).
-inline Float min(Float a, Float b) { return select(isnan(b), a, Float(native::min(a.value, b.value))); }
-inline Float max(Float a, Float b) { return select(isnan(b), a, Float(native::max(a.value, b.value))); }
+inline Float min(Float a, Float b)
+{
+    return select(isnan(b), a, Float(native::min(a.value, b.value)));
+}
+inline Float max(Float a, Float b)
+{
+    return select(isnan(b), a, Float(native::max(a.value, b.value)));
+}
 
 // NaN becomes the lower limit: `native::max` gives its second operand where the first is NaN.
 inline Float clamp(Float a, Float low, Float high)
 {
     return Float(native::min(native::max(a.value, low.value), high.value));
 }
-inline Float saturate(Float a) { return clamp(a, 0.0f, 1.0f); }
+inline Float saturate(Float a)
+{
+    return clamp(a, 0.0f, 1.0f);
+}
 
 // To the nearest integer, ties to even; toward zero. Clamped to +-2147483520 first, the largest float below 2^31;
 // NaN becomes the lower limit.
-inline Int roundToInt(Float a) { return Int(native::roundToInt(clamp(a, -2147483520.0f, 2147483520.0f).value)); }
-inline Int truncateToInt(Float a) { return Int(native::truncateToInt(clamp(a, -2147483520.0f, 2147483520.0f).value)); }
+inline Int roundToInt(Float a)
+{
+    return Int(native::roundToInt(clamp(a, -2147483520.0f, 2147483520.0f).value));
+}
+inline Int truncateToInt(Float a)
+{
+    return Int(native::truncateToInt(clamp(a, -2147483520.0f, 2147483520.0f).value));
+}
 
 // Rearranges every quad (upper left, upper right, lower left, lower right): its lane k becomes its lane a<k>.
 template <int a0, int a1, int a2, int a3>

@@ -52,17 +52,32 @@ private:
     static Int fromUnsigned(native::UintVector v) { return Int((native::IntVector)v); }
 };
 
-inline Int select(Mask m, Int a, Int b) { return Int(native::select(m.value, a.value, b.value)); }
-inline Int min(Int a, Int b) { return Int(native::min(a.value, b.value)); }
-inline Int max(Int a, Int b) { return Int(native::max(a.value, b.value)); }
-inline Int clamp(Int a, Int low, Int high) { return min(max(a, low), high); }
+inline Int select(Mask m, Int a, Int b)
+{
+    return Int(native::select(m.value, a.value, b.value));
+}
+inline Int min(Int a, Int b)
+{
+    return Int(native::min(a.value, b.value));
+}
+inline Int max(Int a, Int b)
+{
+    return Int(native::max(a.value, b.value));
+}
+inline Int clamp(Int a, Int low, Int high)
+{
+    return min(max(a, low), high);
+}
 inline Int shiftRightLogical(Int a, int bits)
 {
     return Int((native::IntVector)((native::UintVector)a.value >> static_cast<unsigned>(bits)));
 }
 
 // Bit i is set where lane i is negative.
-inline unsigned signBits(Int a) { return native::signBits(a.value) & kAllLanes; }
+inline unsigned signBits(Int a)
+{
+    return native::signBits(a.value) & kAllLanes;
+}
 
 namespace detail {
 
@@ -83,7 +98,13 @@ inline constexpr LanePixels kLanePixels = [] {
 }  // namespace detail
 
 // Every lane's pixel, counted from the block's upper left one.
-inline Int laneXs() { return Int::load(detail::kLanePixels.x); }
-inline Int laneYs() { return Int::load(detail::kLanePixels.y); }
+inline Int laneXs()
+{
+    return Int::load(detail::kLanePixels.x);
+}
+inline Int laneYs()
+{
+    return Int::load(detail::kLanePixels.y);
+}
 
 }  // namespace relief

@@ -29,10 +29,22 @@ public:
     native::MaskVector value;
 };
 
-inline bool any(Mask m) { return m.bits() != 0; }
-inline bool all(Mask m) { return m.bits() == kAllLanes; }
-inline bool none(Mask m) { return m.bits() == 0; }
-inline int count(Mask m) { return std::popcount(m.bits()); }
+inline bool any(Mask m)
+{
+    return m.bits() != 0;
+}
+inline bool all(Mask m)
+{
+    return m.bits() == kAllLanes;
+}
+inline bool none(Mask m)
+{
+    return m.bits() == 0;
+}
+inline int count(Mask m)
+{
+    return std::popcount(m.bits());
+}
 
 // The quads of which at least one pixel is set, whole: the pixels that must be computed for derivatives to exist.
 constexpr unsigned wholeQuads(unsigned bits)

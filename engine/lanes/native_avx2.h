@@ -9,23 +9,56 @@ namespace relief::native {
 
 typedef IntVector MaskVector;
 
-inline __m256 wrap(FloatVector a) { return (__m256)a; }
-inline __m256i wrap(IntVector a) { return (__m256i)a; }
+inline __m256 wrap(FloatVector a)
+{
+    return (__m256)a;
+}
+inline __m256i wrap(IntVector a)
+{
+    return (__m256i)a;
+}
 
-inline MaskVector less(FloatVector a, FloatVector b) { return (MaskVector)_mm256_cmp_ps(wrap(a), wrap(b), _CMP_LT_OQ); }
+inline MaskVector less(FloatVector a, FloatVector b)
+{
+    return (MaskVector)_mm256_cmp_ps(wrap(a), wrap(b), _CMP_LT_OQ);
+}
 inline MaskVector lessEqual(FloatVector a, FloatVector b)
 {
     return (MaskVector)_mm256_cmp_ps(wrap(a), wrap(b), _CMP_LE_OQ);
 }
-inline MaskVector equal(FloatVector a, FloatVector b) { return (MaskVector)_mm256_cmp_ps(wrap(a), wrap(b), _CMP_EQ_OQ); }
-inline MaskVector less(IntVector a, IntVector b) { return (MaskVector)_mm256_cmpgt_epi32(wrap(b), wrap(a)); }
-inline MaskVector equal(IntVector a, IntVector b) { return (MaskVector)_mm256_cmpeq_epi32(wrap(a), wrap(b)); }
+inline MaskVector equal(FloatVector a, FloatVector b)
+{
+    return (MaskVector)_mm256_cmp_ps(wrap(a), wrap(b), _CMP_EQ_OQ);
+}
+inline MaskVector less(IntVector a, IntVector b)
+{
+    return (MaskVector)_mm256_cmpgt_epi32(wrap(b), wrap(a));
+}
+inline MaskVector equal(IntVector a, IntVector b)
+{
+    return (MaskVector)_mm256_cmpeq_epi32(wrap(a), wrap(b));
+}
 
-inline MaskVector maskAnd(MaskVector a, MaskVector b) { return a & b; }
-inline MaskVector maskOr(MaskVector a, MaskVector b) { return a | b; }
-inline MaskVector maskNot(MaskVector a) { return ~a; }
-inline unsigned signBits(IntVector a) { return static_cast<unsigned>(_mm256_movemask_ps((__m256)a)); }
-inline unsigned maskBits(MaskVector a) { return signBits(a); }
+inline MaskVector maskAnd(MaskVector a, MaskVector b)
+{
+    return a & b;
+}
+inline MaskVector maskOr(MaskVector a, MaskVector b)
+{
+    return a | b;
+}
+inline MaskVector maskNot(MaskVector a)
+{
+    return ~a;
+}
+inline unsigned signBits(IntVector a)
+{
+    return static_cast<unsigned>(_mm256_movemask_ps((__m256)a));
+}
+inline unsigned maskBits(MaskVector a)
+{
+    return signBits(a);
+}
 inline MaskVector maskFromBits(unsigned bits)
 {
     const IntVector lane = {1, 2, 4, 8, 16, 32, 64, 128};
@@ -41,15 +74,42 @@ inline IntVector select(MaskVector m, IntVector a, IntVector b)
     return (IntVector)_mm256_blendv_epi8(wrap(b), wrap(a), wrap(m));
 }
 
-inline FloatVector min(FloatVector a, FloatVector b) { return (FloatVector)_mm256_min_ps(wrap(a), wrap(b)); }
-inline FloatVector max(FloatVector a, FloatVector b) { return (FloatVector)_mm256_max_ps(wrap(a), wrap(b)); }
-inline IntVector min(IntVector a, IntVector b) { return (IntVector)_mm256_min_epi32(wrap(a), wrap(b)); }
-inline IntVector max(IntVector a, IntVector b) { return (IntVector)_mm256_max_epi32(wrap(a), wrap(b)); }
-inline FloatVector sqrt(FloatVector a) { return (FloatVector)_mm256_sqrt_ps(wrap(a)); }
-inline FloatVector floor(FloatVector a) { return (FloatVector)_mm256_floor_ps(wrap(a)); }
-inline IntVector roundToInt(FloatVector a) { return (IntVector)_mm256_cvtps_epi32(wrap(a)); }
-inline IntVector truncateToInt(FloatVector a) { return (IntVector)_mm256_cvttps_epi32(wrap(a)); }
-inline FloatVector toFloat(IntVector a) { return (FloatVector)_mm256_cvtepi32_ps(wrap(a)); }
+inline FloatVector min(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm256_min_ps(wrap(a), wrap(b));
+}
+inline FloatVector max(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm256_max_ps(wrap(a), wrap(b));
+}
+inline IntVector min(IntVector a, IntVector b)
+{
+    return (IntVector)_mm256_min_epi32(wrap(a), wrap(b));
+}
+inline IntVector max(IntVector a, IntVector b)
+{
+    return (IntVector)_mm256_max_epi32(wrap(a), wrap(b));
+}
+inline FloatVector sqrt(FloatVector a)
+{
+    return (FloatVector)_mm256_sqrt_ps(wrap(a));
+}
+inline FloatVector floor(FloatVector a)
+{
+    return (FloatVector)_mm256_floor_ps(wrap(a));
+}
+inline IntVector roundToInt(FloatVector a)
+{
+    return (IntVector)_mm256_cvtps_epi32(wrap(a));
+}
+inline IntVector truncateToInt(FloatVector a)
+{
+    return (IntVector)_mm256_cvttps_epi32(wrap(a));
+}
+inline FloatVector toFloat(IntVector a)
+{
+    return (FloatVector)_mm256_cvtepi32_ps(wrap(a));
+}
 
 inline DoubleVector lowToDouble(IntVector a)
 {
@@ -79,9 +139,8 @@ inline FloatVector permuteQuad(FloatVector a)
 
 inline __m256i loadTwo(const std::byte* low, const std::byte* high)
 {
-    return _mm256_inserti128_si256(
-        _mm256_castsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(low))),
-        _mm_loadu_si128(reinterpret_cast<const __m128i*>(high)), 1);
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(low))),
+                                   _mm_loadu_si128(reinterpret_cast<const __m128i*>(high)), 1);
 }
 
 // out[k] lane i = the k-th 32-bit word at address[i]; 16 bytes are read per lane.

@@ -18,20 +18,56 @@ namespace relief::native {
 
 typedef __mmask16 MaskVector;
 
-inline __m512 wrap(FloatVector a) { return (__m512)a; }
-inline __m512i wrap(IntVector a) { return (__m512i)a; }
+inline __m512 wrap(FloatVector a)
+{
+    return (__m512)a;
+}
+inline __m512i wrap(IntVector a)
+{
+    return (__m512i)a;
+}
 
-inline MaskVector less(FloatVector a, FloatVector b) { return _mm512_cmp_ps_mask(wrap(a), wrap(b), _CMP_LT_OQ); }
-inline MaskVector lessEqual(FloatVector a, FloatVector b) { return _mm512_cmp_ps_mask(wrap(a), wrap(b), _CMP_LE_OQ); }
-inline MaskVector equal(FloatVector a, FloatVector b) { return _mm512_cmp_ps_mask(wrap(a), wrap(b), _CMP_EQ_OQ); }
-inline MaskVector less(IntVector a, IntVector b) { return _mm512_cmplt_epi32_mask(wrap(a), wrap(b)); }
-inline MaskVector equal(IntVector a, IntVector b) { return _mm512_cmpeq_epi32_mask(wrap(a), wrap(b)); }
+inline MaskVector less(FloatVector a, FloatVector b)
+{
+    return _mm512_cmp_ps_mask(wrap(a), wrap(b), _CMP_LT_OQ);
+}
+inline MaskVector lessEqual(FloatVector a, FloatVector b)
+{
+    return _mm512_cmp_ps_mask(wrap(a), wrap(b), _CMP_LE_OQ);
+}
+inline MaskVector equal(FloatVector a, FloatVector b)
+{
+    return _mm512_cmp_ps_mask(wrap(a), wrap(b), _CMP_EQ_OQ);
+}
+inline MaskVector less(IntVector a, IntVector b)
+{
+    return _mm512_cmplt_epi32_mask(wrap(a), wrap(b));
+}
+inline MaskVector equal(IntVector a, IntVector b)
+{
+    return _mm512_cmpeq_epi32_mask(wrap(a), wrap(b));
+}
 
-inline MaskVector maskAnd(MaskVector a, MaskVector b) { return static_cast<MaskVector>(a & b); }
-inline MaskVector maskOr(MaskVector a, MaskVector b) { return static_cast<MaskVector>(a | b); }
-inline MaskVector maskNot(MaskVector a) { return static_cast<MaskVector>(~a); }
-inline unsigned maskBits(MaskVector a) { return a; }
-inline MaskVector maskFromBits(unsigned bits) { return static_cast<MaskVector>(bits); }
+inline MaskVector maskAnd(MaskVector a, MaskVector b)
+{
+    return static_cast<MaskVector>(a & b);
+}
+inline MaskVector maskOr(MaskVector a, MaskVector b)
+{
+    return static_cast<MaskVector>(a | b);
+}
+inline MaskVector maskNot(MaskVector a)
+{
+    return static_cast<MaskVector>(~a);
+}
+inline unsigned maskBits(MaskVector a)
+{
+    return a;
+}
+inline MaskVector maskFromBits(unsigned bits)
+{
+    return static_cast<MaskVector>(bits);
+}
 
 inline FloatVector select(MaskVector m, FloatVector a, FloatVector b)
 {
@@ -42,19 +78,46 @@ inline IntVector select(MaskVector m, IntVector a, IntVector b)
     return (IntVector)_mm512_mask_blend_epi32(m, wrap(b), wrap(a));
 }
 
-inline unsigned signBits(IntVector a) { return _mm512_movepi32_mask(wrap(a)); }
-inline FloatVector min(FloatVector a, FloatVector b) { return (FloatVector)_mm512_min_ps(wrap(a), wrap(b)); }
-inline FloatVector max(FloatVector a, FloatVector b) { return (FloatVector)_mm512_max_ps(wrap(a), wrap(b)); }
-inline IntVector min(IntVector a, IntVector b) { return (IntVector)_mm512_min_epi32(wrap(a), wrap(b)); }
-inline IntVector max(IntVector a, IntVector b) { return (IntVector)_mm512_max_epi32(wrap(a), wrap(b)); }
-inline FloatVector sqrt(FloatVector a) { return (FloatVector)_mm512_sqrt_ps(wrap(a)); }
+inline unsigned signBits(IntVector a)
+{
+    return _mm512_movepi32_mask(wrap(a));
+}
+inline FloatVector min(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm512_min_ps(wrap(a), wrap(b));
+}
+inline FloatVector max(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm512_max_ps(wrap(a), wrap(b));
+}
+inline IntVector min(IntVector a, IntVector b)
+{
+    return (IntVector)_mm512_min_epi32(wrap(a), wrap(b));
+}
+inline IntVector max(IntVector a, IntVector b)
+{
+    return (IntVector)_mm512_max_epi32(wrap(a), wrap(b));
+}
+inline FloatVector sqrt(FloatVector a)
+{
+    return (FloatVector)_mm512_sqrt_ps(wrap(a));
+}
 inline FloatVector floor(FloatVector a)
 {
     return (FloatVector)_mm512_roundscale_ps(wrap(a), _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
-inline IntVector roundToInt(FloatVector a) { return (IntVector)_mm512_cvtps_epi32(wrap(a)); }
-inline IntVector truncateToInt(FloatVector a) { return (IntVector)_mm512_cvttps_epi32(wrap(a)); }
-inline FloatVector toFloat(IntVector a) { return (FloatVector)_mm512_cvtepi32_ps(wrap(a)); }
+inline IntVector roundToInt(FloatVector a)
+{
+    return (IntVector)_mm512_cvtps_epi32(wrap(a));
+}
+inline IntVector truncateToInt(FloatVector a)
+{
+    return (IntVector)_mm512_cvttps_epi32(wrap(a));
+}
+inline FloatVector toFloat(IntVector a)
+{
+    return (FloatVector)_mm512_cvtepi32_ps(wrap(a));
+}
 
 inline DoubleVector lowToDouble(IntVector a)
 {

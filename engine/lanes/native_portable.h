@@ -10,22 +10,49 @@ namespace relief::native {
 
 typedef IntVector MaskVector;
 
-inline MaskVector less(FloatVector a, FloatVector b) { return (MaskVector)(a < b); }
-inline MaskVector lessEqual(FloatVector a, FloatVector b) { return (MaskVector)(a <= b); }
-inline MaskVector equal(FloatVector a, FloatVector b) { return (MaskVector)(a == b); }
-inline MaskVector less(IntVector a, IntVector b) { return (MaskVector)(a < b); }
-inline MaskVector equal(IntVector a, IntVector b) { return (MaskVector)(a == b); }
+inline MaskVector less(FloatVector a, FloatVector b)
+{
+    return (MaskVector)(a < b);
+}
+inline MaskVector lessEqual(FloatVector a, FloatVector b)
+{
+    return (MaskVector)(a <= b);
+}
+inline MaskVector equal(FloatVector a, FloatVector b)
+{
+    return (MaskVector)(a == b);
+}
+inline MaskVector less(IntVector a, IntVector b)
+{
+    return (MaskVector)(a < b);
+}
+inline MaskVector equal(IntVector a, IntVector b)
+{
+    return (MaskVector)(a == b);
+}
 
-inline MaskVector maskAnd(MaskVector a, MaskVector b) { return a & b; }
-inline MaskVector maskOr(MaskVector a, MaskVector b) { return a | b; }
-inline MaskVector maskNot(MaskVector a) { return ~a; }
+inline MaskVector maskAnd(MaskVector a, MaskVector b)
+{
+    return a & b;
+}
+inline MaskVector maskOr(MaskVector a, MaskVector b)
+{
+    return a | b;
+}
+inline MaskVector maskNot(MaskVector a)
+{
+    return ~a;
+}
 inline unsigned signBits(IntVector a)
 {
     unsigned bits = 0;
     for (int i = 0; i < kLanes; ++i) bits |= (a[i] < 0 ? 1u : 0u) << i;
     return bits;
 }
-inline unsigned maskBits(MaskVector a) { return signBits(a); }
+inline unsigned maskBits(MaskVector a)
+{
+    return signBits(a);
+}
 inline MaskVector maskFromBits(unsigned bits)
 {
     MaskVector m;
@@ -33,16 +60,31 @@ inline MaskVector maskFromBits(unsigned bits)
     return m;
 }
 
-inline IntVector select(MaskVector m, IntVector a, IntVector b) { return (a & m) | (b & ~m); }
+inline IntVector select(MaskVector m, IntVector a, IntVector b)
+{
+    return (a & m) | (b & ~m);
+}
 inline FloatVector select(MaskVector m, FloatVector a, FloatVector b)
 {
     return (FloatVector)select(m, (IntVector)a, (IntVector)b);
 }
 
-inline FloatVector min(FloatVector a, FloatVector b) { return select(less(a, b), a, b); }
-inline FloatVector max(FloatVector a, FloatVector b) { return select(less(b, a), a, b); }
-inline IntVector min(IntVector a, IntVector b) { return select(less(a, b), a, b); }
-inline IntVector max(IntVector a, IntVector b) { return select(less(b, a), a, b); }
+inline FloatVector min(FloatVector a, FloatVector b)
+{
+    return select(less(a, b), a, b);
+}
+inline FloatVector max(FloatVector a, FloatVector b)
+{
+    return select(less(b, a), a, b);
+}
+inline IntVector min(IntVector a, IntVector b)
+{
+    return select(less(a, b), a, b);
+}
+inline IntVector max(IntVector a, IntVector b)
+{
+    return select(less(b, a), a, b);
+}
 
 inline FloatVector sqrt(FloatVector a)
 {
@@ -66,10 +108,19 @@ inline IntVector truncateToInt(FloatVector a)
     for (int i = 0; i < kLanes; ++i) r[i] = static_cast<std::int32_t>(a[i]);
     return r;
 }
-inline FloatVector toFloat(IntVector a) { return __builtin_convertvector(a, FloatVector); }
+inline FloatVector toFloat(IntVector a)
+{
+    return __builtin_convertvector(a, FloatVector);
+}
 
-inline DoubleVector lowToDouble(IntVector a) { return DoubleVector{double(a[0]), double(a[1])}; }
-inline DoubleVector highToDouble(IntVector a) { return DoubleVector{double(a[2]), double(a[3])}; }
+inline DoubleVector lowToDouble(IntVector a)
+{
+    return DoubleVector{double(a[0]), double(a[1])};
+}
+inline DoubleVector highToDouble(IntVector a)
+{
+    return DoubleVector{double(a[2]), double(a[3])};
+}
 inline FloatVector toFloat(DoubleVector low, DoubleVector high)
 {
     return FloatVector{float(low[0]), float(low[1]), float(high[0]), float(high[1])};

@@ -9,54 +9,121 @@ namespace relief::native {
 
 typedef IntVector MaskVector;
 
-inline __m128 wrap(FloatVector a) { return (__m128)a; }
-inline __m128i wrap(IntVector a) { return (__m128i)a; }
+inline __m128 wrap(FloatVector a)
+{
+    return (__m128)a;
+}
+inline __m128i wrap(IntVector a)
+{
+    return (__m128i)a;
+}
 
-inline MaskVector less(FloatVector a, FloatVector b) { return (MaskVector)_mm_cmplt_ps(wrap(a), wrap(b)); }
-inline MaskVector lessEqual(FloatVector a, FloatVector b) { return (MaskVector)_mm_cmple_ps(wrap(a), wrap(b)); }
-inline MaskVector equal(FloatVector a, FloatVector b) { return (MaskVector)_mm_cmpeq_ps(wrap(a), wrap(b)); }
-inline MaskVector less(IntVector a, IntVector b) { return (MaskVector)_mm_cmplt_epi32(wrap(a), wrap(b)); }
-inline MaskVector equal(IntVector a, IntVector b) { return (MaskVector)_mm_cmpeq_epi32(wrap(a), wrap(b)); }
+inline MaskVector less(FloatVector a, FloatVector b)
+{
+    return (MaskVector)_mm_cmplt_ps(wrap(a), wrap(b));
+}
+inline MaskVector lessEqual(FloatVector a, FloatVector b)
+{
+    return (MaskVector)_mm_cmple_ps(wrap(a), wrap(b));
+}
+inline MaskVector equal(FloatVector a, FloatVector b)
+{
+    return (MaskVector)_mm_cmpeq_ps(wrap(a), wrap(b));
+}
+inline MaskVector less(IntVector a, IntVector b)
+{
+    return (MaskVector)_mm_cmplt_epi32(wrap(a), wrap(b));
+}
+inline MaskVector equal(IntVector a, IntVector b)
+{
+    return (MaskVector)_mm_cmpeq_epi32(wrap(a), wrap(b));
+}
 
-inline MaskVector maskAnd(MaskVector a, MaskVector b) { return a & b; }
-inline MaskVector maskOr(MaskVector a, MaskVector b) { return a | b; }
-inline MaskVector maskNot(MaskVector a) { return ~a; }
-inline unsigned signBits(IntVector a) { return static_cast<unsigned>(_mm_movemask_ps((__m128)a)); }
-inline unsigned maskBits(MaskVector a) { return signBits(a); }
+inline MaskVector maskAnd(MaskVector a, MaskVector b)
+{
+    return a & b;
+}
+inline MaskVector maskOr(MaskVector a, MaskVector b)
+{
+    return a | b;
+}
+inline MaskVector maskNot(MaskVector a)
+{
+    return ~a;
+}
+inline unsigned signBits(IntVector a)
+{
+    return static_cast<unsigned>(_mm_movemask_ps((__m128)a));
+}
+inline unsigned maskBits(MaskVector a)
+{
+    return signBits(a);
+}
 inline MaskVector maskFromBits(unsigned bits)
 {
     const IntVector lane = {1, 2, 4, 8};
     return equal(lane & static_cast<std::int32_t>(bits), lane);
 }
 
-inline IntVector select(MaskVector m, IntVector a, IntVector b) { return (a & m) | (b & ~m); }
+inline IntVector select(MaskVector m, IntVector a, IntVector b)
+{
+    return (a & m) | (b & ~m);
+}
 inline FloatVector select(MaskVector m, FloatVector a, FloatVector b)
 {
     return (FloatVector)select(m, (IntVector)a, (IntVector)b);
 }
 
-inline FloatVector min(FloatVector a, FloatVector b) { return (FloatVector)_mm_min_ps(wrap(a), wrap(b)); }
-inline FloatVector max(FloatVector a, FloatVector b) { return (FloatVector)_mm_max_ps(wrap(a), wrap(b)); }
-inline IntVector min(IntVector a, IntVector b) { return select(less(a, b), a, b); }
-inline IntVector max(IntVector a, IntVector b) { return select(less(b, a), a, b); }
-inline FloatVector sqrt(FloatVector a) { return (FloatVector)_mm_sqrt_ps(wrap(a)); }
-inline IntVector roundToInt(FloatVector a) { return (IntVector)_mm_cvtps_epi32(wrap(a)); }
-inline IntVector truncateToInt(FloatVector a) { return (IntVector)_mm_cvttps_epi32(wrap(a)); }
-inline FloatVector toFloat(IntVector a) { return (FloatVector)_mm_cvtepi32_ps(wrap(a)); }
+inline FloatVector min(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm_min_ps(wrap(a), wrap(b));
+}
+inline FloatVector max(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm_max_ps(wrap(a), wrap(b));
+}
+inline IntVector min(IntVector a, IntVector b)
+{
+    return select(less(a, b), a, b);
+}
+inline IntVector max(IntVector a, IntVector b)
+{
+    return select(less(b, a), a, b);
+}
+inline FloatVector sqrt(FloatVector a)
+{
+    return (FloatVector)_mm_sqrt_ps(wrap(a));
+}
+inline IntVector roundToInt(FloatVector a)
+{
+    return (IntVector)_mm_cvtps_epi32(wrap(a));
+}
+inline IntVector truncateToInt(FloatVector a)
+{
+    return (IntVector)_mm_cvttps_epi32(wrap(a));
+}
+inline FloatVector toFloat(IntVector a)
+{
+    return (FloatVector)_mm_cvtepi32_ps(wrap(a));
+}
 
 // SSE2 has no rounding instruction. Beyond 2^23 every float is an integer already (and NaN stays NaN); the sign of
 // zero is kept, as the instruction of the wider sets keeps it.
 inline FloatVector floor(FloatVector a)
 {
     const FloatVector truncated = toFloat(truncateToInt(a));
-    const FloatVector one = (FloatVector)(IntVector{0x3f800000, 0x3f800000, 0x3f800000, 0x3f800000} & less(a, truncated));
+    const FloatVector one =
+        (FloatVector)(IntVector{0x3f800000, 0x3f800000, 0x3f800000, 0x3f800000} & less(a, truncated));
     const IntVector sign = (IntVector)a & static_cast<std::int32_t>(0x80000000u);
     const FloatVector floored = (FloatVector)((IntVector)(truncated - one) | sign);
     const FloatVector magnitude = (FloatVector)((IntVector)a & 0x7fffffff);
     return select(less(magnitude, FloatVector{} + 8388608.0f), floored, a);
 }
 
-inline DoubleVector lowToDouble(IntVector a) { return (DoubleVector)_mm_cvtepi32_pd(wrap(a)); }
+inline DoubleVector lowToDouble(IntVector a)
+{
+    return (DoubleVector)_mm_cvtepi32_pd(wrap(a));
+}
 inline DoubleVector highToDouble(IntVector a)
 {
     return (DoubleVector)_mm_cvtepi32_pd(_mm_shuffle_epi32(wrap(a), 0x4e));

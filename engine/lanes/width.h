@@ -32,12 +32,18 @@
 namespace relief {
 
 inline constexpr int kLanes = RELIEF_LANES;
-inline constexpr int kBlockWidth = kLanes == 4 ? 2 : 4;                // pixels
-inline constexpr int kBlockHeight = kLanes == 16 ? 4 : 2;              // pixels
+inline constexpr int kBlockWidth = kLanes == 4 ? 2 : 4;    // pixels
+inline constexpr int kBlockHeight = kLanes == 16 ? 4 : 2;  // pixels
 inline constexpr unsigned kAllLanes = kLanes == 16 ? 0xffffu : kLanes == 8 ? 0xffu : 0xfu;
 
 // The pixel of a lane, counted from the block's upper left pixel.
-constexpr int laneX(int lane) { return (lane & 1) + (lane & 4) / 2; }
-constexpr int laneY(int lane) { return (lane & 2) / 2 + (lane & 8) / 4; }
+constexpr int laneX(int lane)
+{
+    return (lane & 1) + (lane & 4) / 2;
+}
+constexpr int laneY(int lane)
+{
+    return (lane & 2) / 2 + (lane & 8) / 4;
+}
 
 }  // namespace relief

@@ -8,19 +8,35 @@ namespace relief {
 
 namespace {
 
-enum class Plane { smallW, near, far, left, right, bottom, top };
+enum class Plane
+{
+    smallW,
+    near,
+    far,
+    left,
+    right,
+    bottom,
+    top
+};
 
 // Signed distance to a plane, positive inside. In double: a product of two floats is exact there, so the sign is right.
 double distance(Plane plane, const glm::vec4& p, const ClipLimits& limits)
 {
     switch (plane) {
-        case Plane::smallW: return static_cast<double>(p.w) - static_cast<double>(kSmallestW);
-        case Plane::near: return p.z;
-        case Plane::far: return static_cast<double>(p.w) - static_cast<double>(p.z);
-        case Plane::left: return static_cast<double>(p.w) + static_cast<double>(p.x) * limits.inverseGuardX;
-        case Plane::right: return static_cast<double>(p.w) - static_cast<double>(p.x) * limits.inverseGuardX;
-        case Plane::bottom: return static_cast<double>(p.w) + static_cast<double>(p.y) * limits.inverseGuardY;
-        case Plane::top: return static_cast<double>(p.w) - static_cast<double>(p.y) * limits.inverseGuardY;
+        case Plane::smallW:
+            return static_cast<double>(p.w) - static_cast<double>(kSmallestW);
+        case Plane::near:
+            return p.z;
+        case Plane::far:
+            return static_cast<double>(p.w) - static_cast<double>(p.z);
+        case Plane::left:
+            return static_cast<double>(p.w) + static_cast<double>(p.x) * limits.inverseGuardX;
+        case Plane::right:
+            return static_cast<double>(p.w) - static_cast<double>(p.x) * limits.inverseGuardX;
+        case Plane::bottom:
+            return static_cast<double>(p.w) + static_cast<double>(p.y) * limits.inverseGuardY;
+        case Plane::top:
+            return static_cast<double>(p.w) - static_cast<double>(p.y) * limits.inverseGuardY;
     }
     return 0.0;
 }
@@ -38,13 +54,20 @@ void putOnPlane(Plane plane, const ClipLimits& limits, const glm::vec4& a, const
 {
     const auto put = [&](int i, float value) { p[i] = std::clamp(value, std::min(a[i], b[i]), std::max(a[i], b[i])); };
     switch (plane) {
-        case Plane::smallW: return put(3, kSmallestW);
-        case Plane::near: return put(2, 0.0f);
-        case Plane::far: return put(2, p.w);
-        case Plane::left: return put(0, -p.w / limits.inverseGuardX);
-        case Plane::right: return put(0, p.w / limits.inverseGuardX);
-        case Plane::bottom: return put(1, -p.w / limits.inverseGuardY);
-        case Plane::top: return put(1, p.w / limits.inverseGuardY);
+        case Plane::smallW:
+            return put(3, kSmallestW);
+        case Plane::near:
+            return put(2, 0.0f);
+        case Plane::far:
+            return put(2, p.w);
+        case Plane::left:
+            return put(0, -p.w / limits.inverseGuardX);
+        case Plane::right:
+            return put(0, p.w / limits.inverseGuardX);
+        case Plane::bottom:
+            return put(1, -p.w / limits.inverseGuardY);
+        case Plane::top:
+            return put(1, p.w / limits.inverseGuardY);
     }
 }
 

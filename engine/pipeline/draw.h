@@ -31,7 +31,10 @@ public:
 // --- what a program must look like; a failure names the sentence that is not met ---
 
 template <class Program, class VertexData>
-concept AVertexProgramIsCalledWithItsVertexData = requires(const Program& p, VertexData v) { p(v); };
+concept AVertexProgramIsCalledWithItsVertexData = requires(const Program& p, VertexData v)
+{
+    p(v);
+};
 
 template <class Program, class Interpolators>
 concept AFragmentProgramTakesTheInterpolatorsAndReturnsFloat4 =
@@ -95,8 +98,8 @@ public:
         for (const CoveredBlock& block : blocks) {
             if (block.triangle != current) {
                 current = block.triangle;
-                triangle = TriangleWeights(*current);
-                corners = cornersOf(*current, chunk);
+                triangle.set(*current);
+                setCorners(corners, *current, chunk);
             }
             shadeBlock(block, triangle, corners, tile, counts);
         }
@@ -110,8 +113,10 @@ public:
     [[gnu::flatten]] float shadeAlone(const CoveredBlock& block, const TriangleChunk& chunk,
                                       std::uint64_t times) const override
     {
-        const TriangleWeights triangle(*block.triangle);
-        const CornerComponents<kCount> corners = cornersOf(*block.triangle, chunk);
+        TriangleWeights triangle;
+        triangle.set(*block.triangle);
+        CornerComponents<kCount> corners;
+        setCorners(corners, *block.triangle, chunk);
         const BlockWeights weights = triangle.at(block.x, block.y, block.coverage);
         const Interpolators input =
             interpolate<Interpolators>(triangle, corners, weights, block.x, block.y, triangle.depth(weights));
@@ -127,12 +132,11 @@ public:
     }
 
 private:
-    CornerComponents<kCount> cornersOf(const Triangle& triangle, const TriangleChunk& chunk) const
+    void setCorners(CornerComponents<kCount>& corners, const Triangle& triangle, const TriangleChunk& chunk) const
     {
-        CornerComponents<kCount> corners;
-        corners.set(componentsOf(geometry, chunk, triangle.vertex[0]), componentsOf(geometry, chunk, triangle.vertex[1]),
+        corners.set(componentsOf(geometry, chunk, triangle.vertex[0]),
+                    componentsOf(geometry, chunk, triangle.vertex[1]),
                     componentsOf(geometry, chunk, triangle.vertex[2]));
-        return corners;
     }
 
     float4 runProgram(const Interpolators& input, [[maybe_unused]] Discard& discard) const

@@ -18,7 +18,8 @@ struct Piece
 
 // Cuts all draws' items into chunks of at most `size` items. A chunk may span several small draws.
 template <class CountOf>
-std::vector<std::vector<Piece>> cut(const std::vector<std::unique_ptr<Draw>>& draws, std::uint32_t size, CountOf countOf)
+std::vector<std::vector<Piece>> cut(const std::vector<std::unique_ptr<Draw>>& draws, std::uint32_t size,
+                                    CountOf countOf)
 {
     std::vector<std::vector<Piece>> chunks;
     std::uint32_t room = 0;
@@ -62,8 +63,8 @@ struct Frame::Storage
     Storage(Framebuffer& framebuffer, const FrameOptions& options)
         : target(framebuffer), workers(options.threads), perWorker(static_cast<std::size_t>(workers.count()))
     {
-        grid.tileSize = std::clamp(static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(options.tileSize, 1)))),
-                                   16, kMaxTileSize);
+        grid.tileSize = std::clamp(
+            static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(options.tileSize, 1)))), 16, kMaxTileSize);
         grid.width = (target.width() + grid.tileSize - 1) / grid.tileSize;
         grid.height = (target.height() + grid.tileSize - 1) / grid.tileSize;
         resetState();
@@ -114,7 +115,10 @@ struct Frame::Storage
 Frame::Frame(Framebuffer& target, const FrameOptions& options) : storage(std::make_unique<Storage>(target, options)) {}
 Frame::~Frame() = default;
 
-void Frame::reset() { storage->resetState(); }
+void Frame::reset()
+{
+    storage->resetState();
+}
 
 void Frame::clear(const glm::vec4& color, float depth)
 {
@@ -134,7 +138,10 @@ void Frame::setViewport(const Viewport& viewport)
     storage->viewport = {origin(viewport.x), origin(viewport.y), side(viewport.width), side(viewport.height)};
 }
 
-void Frame::setScissor(const Rectangle& scissor) { storage->scissor = scissor; }
+void Frame::setScissor(const Rectangle& scissor)
+{
+    storage->scissor = scissor;
+}
 
 void Frame::add(std::unique_ptr<Draw> draw, const Mesh& mesh)
 {
@@ -280,7 +287,10 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
     flush();
 }
 
-int Frame::drawCount() const { return static_cast<int>(storage->draws.size()); }
+int Frame::drawCount() const
+{
+    return static_cast<int>(storage->draws.size());
+}
 
 int Frame::componentCount(int draw) const
 {

@@ -1,5 +1,5 @@
-// A frame: records draws, then runs them. The order of draws is the order of blending; which thread does what never shows
-// in the result.
+// A frame: records draws, then runs them. The order of draws is the order of blending; which thread does what never
+// shows in the result.
 #pragma once
 
 #include <memory>
@@ -31,8 +31,8 @@ public:
     // The target's content before the first draw; without it the frame draws onto what is there. Colour is linear.
     void clear(const glm::vec4& color, float depth = 1.0f);
 
-    // Where the next draws go: the whole target by default. The viewport may lie partly outside of the target; width and
-    // height are limited to 16384. The scissor cuts off pixels and moves nothing.
+    // Where the next draws go: the whole target by default. The viewport may lie partly outside of the target; width
+    // and height are limited to 16384. The scissor cuts off pixels and moves nothing.
     void setViewport(const Viewport& viewport);
     void setScissor(const Rectangle& scissor);
 
@@ -48,15 +48,16 @@ public:
     int drawCount() const;
     int componentCount(int draw) const;
 
-    // Whether any pixel depends on an interpolated component: runs the frame again with NaN in it at every vertex. After
-    // run(); the target holds the same picture afterwards.
+    // Whether any pixel depends on an interpolated component: runs the frame again with NaN in it at every vertex.
+    // After run(); the target holds the same picture afterwards.
     bool dependsOn(int draw, int component);
 
     // Forgets the recorded draws and the clear, for the next frame.
     void reset();
 
-    // What the frame's fragment programs cost by themselves: runs each of them `blocks` times in all, on the inputs of one
-    // block in every tile, without raster, depth test, blending and memory. After run(). Returns a sum of the results.
+    // What the frame's fragment programs cost by themselves: runs each of them `blocks` times in all, on the inputs of
+    // one block in every tile, without raster, depth test, blending and memory. After run(). Returns a sum of the
+    // results.
     float shadeAlone(std::uint64_t blocks) const;
 
 private:
@@ -96,21 +97,24 @@ constexpr bool checkPrograms()
         constexpr bool interpolatorsAreSemantics = fieldCount<Interpolators>() >= 0;
         static_assert(vertexDataIsSemantics,
                       "every field of VertexData must be a semantic: POSITION, NORMAL, TANGENT or TEXCOORD<0, float2>");
-        static_assert(interpolatorsAreSemantics, "every field of Interpolators must be a semantic: SV_POSITION, "
-                                                 "TEXCOORD<n, float4>, COLOR<n, float4>");
+        static_assert(interpolatorsAreSemantics,
+                      "every field of Interpolators (at most 12) must be a semantic: "
+                      "SV_POSITION, TEXCOORD<n, float4>, COLOR<n, float4>");
         if constexpr (vertexDataIsSemantics && interpolatorsAreSemantics) {
             constexpr bool meshHasVertexData = meshHasAll(FieldsOf<VertexData>{});
             constexpr bool hasOnePosition = positionCount(FieldsOf<Interpolators>{}) == 1;
             constexpr bool isFewEnough = interpolatedComponents(FieldsOf<Interpolators>{}) <= kMaxComponents;
             constexpr bool takesInterpolators =
                 AFragmentProgramTakesTheInterpolatorsAndReturnsFloat4<FragmentProgram, Interpolators>;
-            static_assert(meshHasVertexData, "VertexData can hold POSITION, NORMAL, TANGENT and TEXCOORD<0, float2>: "
-                                             "a mesh has nothing else");
+            static_assert(meshHasVertexData,
+                          "VertexData can hold POSITION, NORMAL, TANGENT and TEXCOORD<0, float2>: "
+                          "a mesh has nothing else");
             static_assert(hasOnePosition,
                           "Interpolators must have exactly one SV_POSITION: the vertex program's clip-space position");
             static_assert(isFewEnough, "Interpolators may have at most 128 components");
-            static_assert(takesInterpolators, "the fragment program must take the Interpolators that the vertex "
-                                              "program returns, and return float4");
+            static_assert(takesInterpolators,
+                          "the fragment program must take the Interpolators that the vertex "
+                          "program returns, and return float4");
             return meshHasVertexData && hasOnePosition && isFewEnough && takesInterpolators;
         }
     }

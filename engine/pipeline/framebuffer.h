@@ -20,7 +20,11 @@ enum class ColorFormat
 
 // A transient depth buffer lives in the tiles only, while they are drawn: nothing is written to memory. Keep it when
 // something reads it afterwards, or when a later frame draws on without clearing.
-enum class DepthStorage { transient, keep };
+enum class DepthStorage
+{
+    transient,
+    keep
+};
 
 class Framebuffer
 {

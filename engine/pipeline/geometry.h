@@ -1,5 +1,5 @@
-// What the front end of the pipeline passes on: from shaded vertices (clip space and screen) to triangles that are ready
-// to be binned.
+// What the front end of the pipeline passes on: from shaded vertices (clip space and screen) to triangles that are
+// ready to be binned.
 #pragma once
 
 #include <cstdint>
@@ -63,11 +63,18 @@ struct ScreenVertex
 namespace vertex_code {
 enum : std::uint16_t
 {
-    outsideLeft = 1, outsideRight = 2, outsideBottom = 4, outsideTop = 8, outsideNear = 16, outsideFar = 32,
+    outsideLeft = 1,
+    outsideRight = 2,
+    outsideBottom = 4,
+    outsideTop = 8,
+    outsideNear = 16,
+    outsideFar = 32,
     anyOutside = 63,
-    beyondGuardBand = 64, smallW = 128,
+    beyondGuardBand = 64,
+    smallW = 128,
     mustClip = outsideNear | outsideFar | beyondGuardBand | smallW,
-    nan = 256, infinite = 512,
+    nan = 256,
+    infinite = 512,
 };
 }
 
@@ -79,10 +86,10 @@ struct DrawGeometry
     std::uint32_t vertexCount = 0;
     std::uint32_t componentCount = 0;  // floats to interpolate per vertex
 
-    glm::vec4* clip = nullptr;              // per vertex
-    ScreenVertex* screen = nullptr;         // per vertex
-    std::uint16_t* codes = nullptr;         // per vertex
-    float* components = nullptr;            // componentCount per vertex
+    glm::vec4* clip = nullptr;       // per vertex
+    ScreenVertex* screen = nullptr;  // per vertex
+    std::uint16_t* codes = nullptr;  // per vertex
+    float* components = nullptr;     // componentCount per vertex
 
     Viewport viewport;
     Rectangle bounds;  // viewport, scissor and target: no pixel outside is touched
@@ -113,10 +120,10 @@ struct TriangleChunk
     };
 
     std::vector<Triangle> triangles;
-    std::vector<float> clippedComponents;    // of vertices that clipping made
-    std::vector<BinEntry> entries;           // in submission order
-    std::vector<std::uint32_t> binStart;     // tile t's triangles are sorted[binStart[t]] ... sorted[binStart[t + 1] - 1]
-    std::vector<std::uint32_t> sorted;       // indices into `triangles`, by tile, then in submission order
+    std::vector<float> clippedComponents;  // of vertices that clipping made
+    std::vector<BinEntry> entries;         // in submission order
+    std::vector<std::uint32_t> binStart;   // tile t's triangles are sorted[binStart[t]] ... sorted[binStart[t + 1] - 1]
+    std::vector<std::uint32_t> sorted;     // indices into `triangles`, by tile, then in submission order
 
     void clear()
     {

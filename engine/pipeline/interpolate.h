@@ -1,6 +1,6 @@
-// Interpolation: from a triangle's three corners to every pixel of a block. The weights come from the exact integer edge
-// values, rounded once to float, so they are good to the last bits for slivers, huge triangles and triangles far from
-// the origin alike, and do not depend on tile or block.
+// Interpolation: from a triangle's three corners to every pixel of a block. The weights come from the exact integer
+// edge values, rounded once to float, so they are good to the last bits for slivers, huge triangles and triangles far
+// from the origin alike, and do not depend on tile or block.
 //
 //     b_k = E_k / area                     linear on screen: depth, and what is declared noperspective
 //     p_k = E_k / w_k / sum(E_j / w_j)     linear in space: everything else
@@ -26,7 +26,9 @@ class TriangleWeights
 {
 public:
     TriangleWeights() = default;
-    explicit TriangleWeights(const Triangle& t)
+    explicit TriangleWeights(const Triangle& t) { set(t); }
+
+    void set(const Triangle& t)
     {
         small = isSmall(t);
         for (int k = 0; k < 3; ++k) {
@@ -83,9 +85,9 @@ public:
 
         Float sum = e[0] * invW[0] + e[1] * invW[1] + e[2] * invW[2];
         if (covered != kAllLanes) [[unlikely]] {
-            // Beyond the triangle the sum, which is 1/w, may reach zero: behind the horizon. There, attributes come from
-            // the nearest weights within the triangle instead, so that differences to the neighbours stay finite. Just
-            // above zero it is as bad. Covered pixels have no negative weights: nothing changes for them.
+            // Beyond the triangle the sum, which is 1/w, may reach zero: behind the horizon. There, attributes come
+            // from the nearest weights within the triangle instead, so that differences to the neighbours stay finite.
+            // Just above zero it is as bad. Covered pixels have no negative weights: nothing changes for them.
             const Mask beyond = !(sum > 0x1p-20f);
             if (any(beyond)) {
                 for (Float& value : e) value = select(beyond, max(value, Float(0.0f)), value);
@@ -113,7 +115,8 @@ private:
     // E at the pixels of a block: an exact integer either way, then rounded once.
     Float edgeValue(int k, int x, int y) const
     {
-        const std::int64_t steps = static_cast<std::int64_t>(edge[k].stepX) * x + static_cast<std::int64_t>(edge[k].stepY) * y;
+        const std::int64_t steps =
+            static_cast<std::int64_t>(edge[k].stepX) * x + static_cast<std::int64_t>(edge[k].stepY) * y;
         const std::int64_t corner = edge[k].origin + steps * kSubpixels;
         if (small) return Float(smallLanes[k] + static_cast<std::int32_t>(corner));
         return toFloat(largeLanes[k] + Double(static_cast<double>(corner)));
@@ -132,7 +135,8 @@ private:
 template <int components>
 struct CornerComponents
 {
-    float first[components + 1] = {}, toSecond[components + 1] = {}, toThird[components + 1] = {};  // + 1: zero components are allowed
+    float first[components + 1] = {}, toSecond[components + 1] = {},
+                             toThird[components + 1] = {};  // + 1: zero components are allowed
 
     void set(const float* a, const float* b, const float* c)
     {

@@ -13,14 +13,22 @@ template <Compare compare>
 Mask compareDepth(Float z, Float stored)
 {
     switch (compare) {
-        case Compare::never: return Mask(false);
-        case Compare::less: return z < stored;
-        case Compare::equal: return z == stored;
-        case Compare::lessEqual: return z <= stored;
-        case Compare::greater: return z > stored;
-        case Compare::notEqual: return z != stored;
-        case Compare::greaterEqual: return z >= stored;
-        case Compare::always: break;
+        case Compare::never:
+            return Mask(false);
+        case Compare::less:
+            return z < stored;
+        case Compare::equal:
+            return z == stored;
+        case Compare::lessEqual:
+            return z <= stored;
+        case Compare::greater:
+            return z > stored;
+        case Compare::notEqual:
+            return z != stored;
+        case Compare::greaterEqual:
+            return z >= stored;
+        case Compare::always:
+            break;
     }
     return Mask(true);
 }
@@ -30,12 +38,18 @@ template <Compare compare>
 bool isHidden(float nearest, float farthest, const DepthBounds& stored)
 {
     switch (compare) {
-        case Compare::less: return nearest >= stored.farthest;
-        case Compare::lessEqual: return nearest > stored.farthest;
-        case Compare::greater: return farthest <= stored.nearest;
-        case Compare::greaterEqual: return farthest < stored.nearest;
-        case Compare::equal: return nearest > stored.farthest || farthest < stored.nearest;
-        default: return false;
+        case Compare::less:
+            return nearest >= stored.farthest;
+        case Compare::lessEqual:
+            return nearest > stored.farthest;
+        case Compare::greater:
+            return farthest <= stored.nearest;
+        case Compare::greaterEqual:
+            return farthest < stored.nearest;
+        case Compare::equal:
+            return nearest > stored.farthest || farthest < stored.nearest;
+        default:
+            return false;
     }
 }
 
@@ -52,7 +66,10 @@ void updateBounds(float nearest, float farthest, bool whole, DepthBounds& stored
 }
 
 // FLOAT -> UNORM8: NaN to 0, clamp, scale, round half up (D3D 11.3, 3.2.3.6).
-inline Int toUnorm8(Float c) { return Int(native::truncateToInt((saturate(c) * 255.0f + 0.5f).value)); }
+inline Int toUnorm8(Float c)
+{
+    return Int(native::truncateToInt((saturate(c) * 255.0f + 0.5f).value));
+}
 
 inline Int packRgba8(const float4& c)
 {
@@ -65,7 +82,10 @@ inline float4 unpackRgba8(Int packed)
     return {channel(0), channel(8), channel(16), channel(24)};
 }
 
-inline float4 encodeSrgb(const float4& c) { return {linearToSrgb(c.x), linearToSrgb(c.y), linearToSrgb(c.z), c.w}; }
+inline float4 encodeSrgb(const float4& c)
+{
+    return {linearToSrgb(c.x), linearToSrgb(c.y), linearToSrgb(c.z), c.w};
+}
 
 // Decodes by the exact table of 256 values; only blending onto an sRGB target needs it.
 inline float4 decodeSrgb8(Int packed)
@@ -96,7 +116,8 @@ inline int sanitizeColor(float4& color, Mask live)
     Mask finite = true;
     for (int c = 0; c < 4; ++c) finite &= abs(color[c]) <= largest;
     const Mask invalid = live & !finite;
-    if (none(invalid)) [[likely]] return 0;
+    if (none(invalid)) [[likely]]
+        return 0;
     for (int c = 0; c < 4; ++c) {
         color[c] = select(isnan(color[c]), Float(0.0f), clamp(color[c], -largest, largest));
     }

@@ -12,7 +12,7 @@ namespace {
 // Edges whose sign varies among the pixels in question, as 32-bit values at the lanes of a block.
 struct EdgeLanes
 {
-    Int value[3];  // at the first block of the current row of blocks
+    Int value[3];                     // at the first block of the current row of blocks
     std::int32_t stepX[3], stepY[3];  // to the next block, to the next row of blocks
     int count = 0;
 
@@ -63,7 +63,8 @@ CoveredBlock* coverBlocks(const Triangle& triangle, const Rectangle& pixels, con
     return out;
 }
 
-// A triangle of at most kSmallTriangle pixels: its edge values near it fit into 32 bits, and nothing is worth sorting out.
+// A triangle of at most kSmallTriangle pixels: its edge values near it fit into 32 bits, and nothing is worth sorting
+// out.
 CoveredBlock* coverSmall(const Triangle& t, const Rectangle& pixels, const Rectangle* clip, CoveredBlock* out)
 {
     EdgeLanes lanes;
@@ -91,10 +92,14 @@ CoveredBlock* coverSquare(const Triangle& t, const Rectangle& pixels, const Rect
         lanes.add(edge, static_cast<std::int32_t>(corner));
     }
     switch (lanes.count) {
-        case 0: return coverBlocks<0>(t, pixels, clip, lanes, out);
-        case 1: return coverBlocks<1>(t, pixels, clip, lanes, out);
-        case 2: return coverBlocks<2>(t, pixels, clip, lanes, out);
-        default: return coverBlocks<3>(t, pixels, clip, lanes, out);
+        case 0:
+            return coverBlocks<0>(t, pixels, clip, lanes, out);
+        case 1:
+            return coverBlocks<1>(t, pixels, clip, lanes, out);
+        case 2:
+            return coverBlocks<2>(t, pixels, clip, lanes, out);
+        default:
+            return coverBlocks<3>(t, pixels, clip, lanes, out);
     }
 }
 

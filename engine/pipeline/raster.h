@@ -15,8 +15,8 @@ struct CoveredBlock
     std::uint32_t coverage;  // a bit per lane
 };
 
-// Appends the blocks of `clip` (a tile, or a part of one) in which the triangle covers a pixel to `out`, row by row, and
-// returns the new end. There must be room for every block of `clip` and one more.
+// Appends the blocks of `clip` (a tile, or a part of one) in which the triangle covers a pixel to `out`, row by row,
+// and returns the new end. There must be room for every block of `clip` and one more.
 CoveredBlock* rasterise(const Triangle& triangle, const Rectangle& clip, CoveredBlock* out);
 
 }  // namespace relief

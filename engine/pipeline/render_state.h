@@ -3,17 +3,37 @@
 
 namespace relief {
 
-enum class Compare { never, less, equal, lessEqual, greater, notEqual, greaterEqual, always };
-enum class Cull { none, back, front };
+enum class Compare
+{
+    never,
+    less,
+    equal,
+    lessEqual,
+    greater,
+    notEqual,
+    greaterEqual,
+    always
+};
+enum class Cull
+{
+    none,
+    back,
+    front
+};
 
 // What becomes of a source colour s and the destination d.  off: s.  additive: s + d.  alpha: s.a s + (1 - s.a) d.
-enum class Blend { off, additive, alpha };
+enum class Blend
+{
+    off,
+    additive,
+    alpha
+};
 
 struct RenderState
 {
     Compare depthTest = Compare::less;  // `greater` with a depth cleared to 0 is reversed depth
     bool depthWrite = true;
-    bool depthClip = true;              // false: z beyond near and far is clamped instead of clipped
+    bool depthClip = true;  // false: z beyond near and far is clamped instead of clipped
     Cull cull = Cull::back;
     Blend blend = Blend::off;
 };

@@ -32,8 +32,7 @@ Batch gather(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count,
     const std::byte* address[3][kLanes];
     for (std::uint32_t i = 0; i < kLanes; ++i) {
         const std::uint32_t* index = draw.indices + 3 * static_cast<std::size_t>(first + (i < count ? i : 0));
-        const bool inRange =
-            index[0] < draw.vertexCount && index[1] < draw.vertexCount && index[2] < draw.vertexCount;
+        const bool inRange = index[0] < draw.vertexCount && index[1] < draw.vertexCount && index[2] < draw.vertexCount;
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t vertex = inRange ? index[k] : 0;
             batch.lanes.vertex[k][i] = vertex;
@@ -80,9 +79,12 @@ Orientation orient(const TriangleLanes& t, Cull cull)
     const unsigned back = negativeBits(area);
     const unsigned front = negativeBits(Double(0.0) - area);
     switch (cull) {
-        case Cull::back: return {front, 0};
-        case Cull::front: return {back, back};
-        case Cull::none: break;
+        case Cull::back:
+            return {front, 0};
+        case Cull::front:
+            return {back, back};
+        case Cull::none:
+            break;
     }
     return {front | back, back};
 }

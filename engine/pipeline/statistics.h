@@ -1,5 +1,5 @@
-// What a frame did, counted while it ran. Every count but `blocksShaded` is the same for any number of threads and lanes
-// and any tile size but `trianglesBinned` and `tilesTouched`.
+// What a frame did, counted while it ran. Every count but `blocksShaded` is the same for any number of threads and
+// lanes and any tile size but `trianglesBinned` and `tilesTouched`.
 #pragma once
 
 #include <cstdint>

@@ -60,7 +60,8 @@ void Tile::load(int x0, int y0, const Framebuffer& target, float transientDepth)
     forEachPair(x0, y0, size, [&](int px, int py, int lane) {
         for (int i = 0; i < 2; ++i, ++px, ++lane) {
             if (px >= width || py >= target.height()) return;
-            const auto pixel = static_cast<std::size_t>(py) * static_cast<std::size_t>(width) + static_cast<std::size_t>(px);
+            const auto pixel =
+                static_cast<std::size_t>(py) * static_cast<std::size_t>(width) + static_cast<std::size_t>(px);
             if (mFormat == ColorFormat::rgba32f) {
                 for (int c = 0; c < 4; ++c) {
                     mColor32f[static_cast<std::size_t>(lane / kLanes * 4 * kLanes + c * kLanes + lane % kLanes)] =
@@ -91,12 +92,14 @@ void storeRows(int width, int height, int blocksWide, std::size_t stride, Pixel*
             Pixel* corner = target + static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
             if (x + kBlockWidth <= width && y + kBlockHeight <= height) {
                 for (int i = 0; i < kLanes; i += 2) {
-                    std::memcpy(corner + static_cast<std::size_t>(laneY(i)) * stride + laneX(i), lanes + i, 2 * sizeof(Pixel));
+                    std::memcpy(corner + static_cast<std::size_t>(laneY(i)) * stride + laneX(i), lanes + i,
+                                2 * sizeof(Pixel));
                 }
                 continue;
             }
             for (int i = 0; i < kLanes; ++i) {
-                if (x + laneX(i) < width && y + laneY(i) < height) corner[static_cast<std::size_t>(laneY(i)) * stride + static_cast<std::size_t>(laneX(i))] = lanes[i];
+                if (x + laneX(i) < width && y + laneY(i) < height)
+                    corner[static_cast<std::size_t>(laneY(i)) * stride + static_cast<std::size_t>(laneX(i))] = lanes[i];
             }
         }
     }

@@ -34,7 +34,10 @@ public:
     int blockAt(int x, int y) const { return (y - originY) / kBlockHeight * blocksWide + (x - originX) / kBlockWidth; }
 
     std::int32_t* color8(int block) { return mColor8.get() + static_cast<std::size_t>(block) * kLanes; }
-    float* color32f(int block) { return mColor32f.get() + static_cast<std::size_t>(block) * kLanes * 4; }  // R.., G.., B.., A..
+    float* color32f(int block)
+    {
+        return mColor32f.get() + static_cast<std::size_t>(block) * kLanes * 4;
+    }  // R.., G.., B.., A..
     float* depth(int block) { return mDepth.get() + static_cast<std::size_t>(block) * kLanes; }
     DepthBounds& bounds(int block) { return mBounds[static_cast<std::size_t>(block)]; }
 

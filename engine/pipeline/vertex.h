@@ -15,9 +15,9 @@ void projectVertices(const DrawGeometry& draw, std::uint32_t first, std::uint32_
 
 // Whether a mesh has a stream for a semantic, and for all of them.
 template <class Field>
-inline constexpr bool kMeshHas = std::is_same_v<Field, POSITION> || std::is_same_v<Field, NORMAL> ||
-                                 std::is_same_v<Field, TANGENT> ||
-                                 std::is_same_v<Field, TEXCOORD<0, typename Field::Value>>;
+inline constexpr bool kMeshHas =
+    std::is_same_v<Field, POSITION> || std::is_same_v<Field, NORMAL> || std::is_same_v<Field, TANGENT> ||
+    std::is_same_v<Field, TEXCOORD<0, typename Field::Value>>;
 template <class... Field>
 constexpr bool meshHasAll(FieldList<Field...>)
 {
@@ -49,7 +49,8 @@ void fetch(const Mesh& mesh, std::uint32_t first, std::uint32_t count, Field& fi
     } else {
         read(mesh.uvs);
     }
-    for (int c = 0; c < components; ++c) component(static_cast<typename Field::Value&>(field), c) = Float::load(lanes[c]);
+    for (int c = 0; c < components; ++c)
+        component(static_cast<typename Field::Value&>(field), c) = Float::load(lanes[c]);
 }
 
 }  // namespace detail

@@ -45,8 +45,8 @@ struct ViewportTransform
     }
 
 private:
-    // The guard band in units of the viewport's half size, one pixel narrower than what the integers can hold, and never
-    // so wide that |x| times its inverse could lose a visible vertex.
+    // The guard band in units of the viewport's half size, one pixel narrower than what the integers can hold, and
+    // never so wide that |x| times its inverse could lose a visible vertex.
     static float inverseGuard(int origin, int size)
     {
         const float half = static_cast<float>(size) * 0.5f;

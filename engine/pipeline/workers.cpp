@@ -22,7 +22,10 @@ struct Workers::Pool
 };
 
 Workers::Workers(int) {}
-int Workers::count() const { return 1; }
+int Workers::count() const
+{
+    return 1;
+}
 
 void Workers::run(int tasks, Job job)
 {
@@ -82,7 +85,10 @@ Workers::Workers(int threads) : pool(std::make_unique<Pool>())
     }
 }
 
-int Workers::count() const { return static_cast<int>(pool->threads.size()) + 1; }
+int Workers::count() const
+{
+    return static_cast<int>(pool->threads.size()) + 1;
+}
 
 void Workers::run(int tasks, Job job)
 {

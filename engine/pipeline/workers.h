@@ -1,5 +1,5 @@
-// A pool of threads that works through numbered tasks. Which thread takes which task is open; results must not depend on
-// it. With RELIEF_NO_THREADS the same interface runs everything on the calling thread.
+// A pool of threads that works through numbered tasks. Which thread takes which task is open; results must not depend
+// on it. With RELIEF_NO_THREADS the same interface runs everything on the calling thread.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // Unity's metallic workflow and its physically based lighting model, as the tutorials call them: GGX specular, Disney
-// diffuse, Schlick's Fresnel. Formulae of Unity's built-in shaders (UnityStandardBRDF.cginc, MIT), with the epsilons that
-// they have: the tutorial-faithful form. All colours are linear; directions are unit vectors.
+// diffuse, Schlick's Fresnel. Formulae of Unity's built-in shaders (UnityStandardBRDF.cginc, MIT), with the epsilons
+// that they have: the tutorial-faithful form. All colours are linear; directions are unit vectors.
 #pragma once
 
 #include "hlsl/intrinsics.h"
@@ -17,7 +17,8 @@ struct UnityLight
 // The share of light that a dielectric reflects head on.
 inline constexpr float kDielectricSpecular = 0.04f;
 
-// Unity's unity_ColorSpaceDouble: what brings a detail texture's middle grey, sRGB 0.5, to a factor near 1 in linear colour.
+// Unity's unity_ColorSpaceDouble: what brings a detail texture's middle grey, sRGB 0.5, to a factor near 1 in linear
+// colour.
 inline constexpr float unity_ColorSpaceDouble = 4.59479380f;
 
 // Splits a material's colour between diffuse and specular, so that the two together never reflect more than arrives.
@@ -36,7 +37,8 @@ inline Float Pow5(Float x)
     return square * square * x;
 }
 
-// Unity's BRDF1 for one light: what the surface sends to the viewer. smoothness is 0 ... 1; viewDir points to the viewer.
+// Unity's BRDF1 for one light: what the surface sends to the viewer. smoothness is 0 ... 1; viewDir points to the
+// viewer.
 inline float4 UNITY_BRDF_PBS(const float3& diffColor, const float3& specColor, Float smoothness, const float3& normal,
                              const float3& viewDir, const UnityLight& light)
 {

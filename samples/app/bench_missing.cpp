@@ -5,7 +5,9 @@ namespace relief::samples {
 
 Expected<void> bench(const std::vector<std::string>&)
 {
-    return fail("bench: this build has no benchmarks, Google Benchmark was not found; install libbenchmark-dev and build again");
+    return fail(
+        "bench: this build has no benchmarks, Google Benchmark was not found; install libbenchmark-dev and build "
+        "again");
 }
 
 }  // namespace relief::samples

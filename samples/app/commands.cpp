@@ -16,16 +16,16 @@ nlohmann::json describe(const Property& p)
         value = nlohmann::json::array();
         for (int i = 0; i < p.components; ++i) value.push_back(p.value[i]);
     }
-    return {{"name", p.name},       {"default", value},       {"minimum", p.minimum},
-            {"maximum", p.maximum}, {"meaning", p.meaning}};
+    return {
+        {"name", p.name}, {"default", value}, {"minimum", p.minimum}, {"maximum", p.maximum}, {"meaning", p.meaning}};
 }
 
 nlohmann::json describe(const Stage& stage)
 {
     nlohmann::json properties = nlohmann::json::array();
     for (const Property& p : stage.properties) properties.push_back(describe(p));
-    return {{"id", stage.id},           {"stem", stage.stem},       {"title", stage.title},
-            {"tutorial", stage.tutorial}, {"section", stage.section}, {"properties", properties}};
+    return {{"id", stage.id},           {"stem", stage.stem},      {"title", stage.title}, {"tutorial", stage.tutorial},
+            {"section", stage.section}, {"properties", properties}};
 }
 
 }  // namespace
@@ -70,8 +70,8 @@ Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int thr
     stage.record(frame, size.width, size.height);
     const Statistics statistics = frame.run();
     const std::span<const std::uint32_t> pixels = target->color8();
-    const Expected<void> written = writePng(path, size.width, size.height,
-                                            {reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
+    const Expected<void> written = writePng(
+        path, size.width, size.height, {reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
     if (!written) return tl::unexpected(written.error());
     return statistics;
 }

@@ -1,5 +1,5 @@
-// The commands of the program, one function each. They print their results; an error comes back as one line, which main()
-// prints to stderr with exit code 2.
+// The commands of the program, one function each. They print their results; an error comes back as one line, which
+// main() prints to stderr with exit code 2.
 #pragma once
 
 #include <string>

@@ -64,12 +64,13 @@ std::vector<Row> rows(const Statistics& s, const SlotUse& slots, const MipUse& m
         {"tiles touched", s.tilesTouched, "of " + std::to_string(s.tiles) + "; the others were only cleared"},
         {"blocks shaded", s.blocksShaded, "of " + std::to_string(kLanes) + " lanes"},
         {"quads shaded", s.quadsShaded, ""},
-        {"pixels shaded", s.pixelsShaded,
-         percent(s.pixelsShaded, s.blocksShaded * kLanes) + " of the lanes that ran"},
+        {"pixels shaded", s.pixelsShaded, percent(s.pixelsShaded, s.blocksShaded * kLanes) + " of the lanes that ran"},
         {"pixels hidden", s.pixelsHidden, "failed the depth test before any shading"},
         {"invalid colours", s.invalidColors, "NaN or infinite, replaced"},
         {"components used", static_cast<std::uint64_t>(slots.used),
-         "of " + std::to_string(slots.declared) + " declared; no pixel depends on the others"},
+         slots.used == slots.declared
+             ? "all that are declared"
+             : "of " + std::to_string(slots.declared) + " declared; no pixel depends on the others"},
         {"texture fetches, nearest", s.fetches.nearest, ""},
         {"texture fetches, bilinear", s.fetches.bilinear, ""},
         {"texture fetches, trilinear", s.fetches.trilinear, ""},

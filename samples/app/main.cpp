@@ -15,7 +15,8 @@ void addInputOptions(CLI::App& command, RenderOptions& options)
     command.add_option("stage", options.stage, "A stage, by number (1.07) or name (07_central_difference)")->required();
     command.add_option("--size", options.size, "Picture size in pixels")->type_name("WxH")->capture_default_str();
     command.add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
-    command.add_option("--set", options.settings, "A property, as name=value; may be repeated")->type_name("NAME=VALUE");
+    command.add_option("--set", options.settings, "A property, as name=value; may be repeated")
+        ->type_name("NAME=VALUE");
     command.add_option("--mesh", options.files.mesh, "An OBJ file in place of the stage's mesh")->type_name("FILE");
     command.add_option("--albedo", options.files.albedo, "A picture (sRGB) in place of the albedo")->type_name("FILE");
     command.add_option("--height", options.files.height, "A height map")->type_name("FILE");
@@ -53,7 +54,8 @@ int main(int argc, char** argv)
 
     command = app.add_subcommand("view", "Shows a stage in a window");
     addInputOptions(*command, options);
-    command->add_option("--frames", frames, "Close after this many frames; 0: when the user does")->check(CLI::Range(0, 1000000));
+    command->add_option("--frames", frames, "Close after this many frames; 0: when the user does")
+        ->check(CLI::Range(0, 1000000));
     command->callback([&] { result = view(options, frames); });
 
     command = app.add_subcommand("hash", "Prints the hash of a stage's float colour and depth");

@@ -54,14 +54,14 @@ struct Viewer
     void key(SDL_Keycode key, bool fast);
     void change(float direction);
     std::string title(double milliseconds) const;
-    void draw(Framebuffer& target, Framebuffer& scratch, Frame& frame, Frame& scratchFrame) const;
+    void draw(Framebuffer& target, Framebuffer& scratch, Frame& frame, Frame& scratchFrame);
 };
 
 Expected<void> Viewer::open(std::size_t stage, bool keepSettings)
 {
     const std::vector<std::string> none;
-    Expected<PreparedStage> opened = PreparedStage::prepare(
-        allStages()[stage], keepSettings ? options.settings : none, keepSettings ? options.files : InputFiles{});
+    Expected<PreparedStage> opened = PreparedStage::prepare(allStages()[stage], keepSettings ? options.settings : none,
+                                                            keepSettings ? options.files : InputFiles{});
     if (!opened) return tl::unexpected(opened.error());
     Expected<PreparedStage> before = PreparedStage::prepare(allStages()[stage == 0 ? 0 : stage - 1]);
     if (!before) return tl::unexpected(before.error());
@@ -87,19 +87,38 @@ void Viewer::key(SDL_Keycode pressed, bool fast)
     Expected<void> opened;
     switch (pressed) {
         case SDLK_q:
-        case SDLK_ESCAPE: running = false; break;
-        case SDLK_UP: property = (property + properties - 1) % properties; break;
-        case SDLK_DOWN: property = (property + 1) % properties; break;
+        case SDLK_ESCAPE:
+            running = false;
+            break;
+        case SDLK_UP:
+            property = (property + properties - 1) % properties;
+            break;
+        case SDLK_DOWN:
+            property = (property + 1) % properties;
+            break;
         case SDLK_MINUS:
-        case SDLK_KP_MINUS: change(fast ? -10.0f : -1.0f); break;
+        case SDLK_KP_MINUS:
+            change(fast ? -10.0f : -1.0f);
+            break;
         case SDLK_PLUS:
         case SDLK_EQUALS:
-        case SDLK_KP_PLUS: change(fast ? 10.0f : 1.0f); break;
-        case SDLK_LEFT: opened = open(index == 0 ? allStages().size() - 1 : index - 1, false); break;
-        case SDLK_RIGHT: opened = open((index + 1) % allStages().size(), false); break;
-        case SDLK_r: opened = open(index, false); break;
-        case SDLK_F2: compare = !compare; break;
-        default: break;
+        case SDLK_KP_PLUS:
+            change(fast ? 10.0f : 1.0f);
+            break;
+        case SDLK_LEFT:
+            opened = open(index == 0 ? allStages().size() - 1 : index - 1, false);
+            break;
+        case SDLK_RIGHT:
+            opened = open((index + 1) % allStages().size(), false);
+            break;
+        case SDLK_r:
+            opened = open(index, false);
+            break;
+        case SDLK_F2:
+            compare = !compare;
+            break;
+        default:
+            break;
     }
     if (!opened) std::fprintf(stderr, "relief: %s\n", opened.error().message.c_str());
 }
@@ -118,7 +137,7 @@ std::string Viewer::title(double milliseconds) const
     return text;
 }
 
-void Viewer::draw(Framebuffer& target, Framebuffer& scratch, Frame& frame, Frame& scratchFrame) const
+void Viewer::draw(Framebuffer& target, Framebuffer& scratch, Frame& frame, Frame& scratchFrame)
 {
     const int width = target.width(), height = target.height();
     const Camera camera = orbit.applied(current.camera());
@@ -126,7 +145,13 @@ void Viewer::draw(Framebuffer& target, Framebuffer& scratch, Frame& frame, Frame
     frame.run();
     if (!compare) return;
 
-    // The previous stage, with the same camera where the two belong together; its left half is shown.
+    // The previous stage, with the same camera where the two belong together and the same values of the properties that
+    // both have; its left half is shown.
+    for (Property& p : previous.properties) {
+        for (const Property& mine : current.properties) {
+            if (mine.name == p.name) p.value = mine.value;
+        }
+    }
     const bool together = previous.stage->folder == current.stage->folder;
     previous.record(scratchFrame, width, height, together ? camera : previous.camera());
     scratchFrame.run();

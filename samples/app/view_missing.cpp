@@ -5,8 +5,9 @@ namespace relief::samples {
 
 Expected<void> view(const RenderOptions&, int)
 {
-    return fail("view: this build has no window, SDL2 was not found; install libsdl2-dev and build again "
-                "(`relief render` works without it)");
+    return fail(
+        "view: this build has no window, SDL2 was not found; install libsdl2-dev and build again "
+        "(`relief render` works without it)");
 }
 
 }  // namespace relief::samples

@@ -56,7 +56,9 @@ Stage basics_02_interpolators()
 {
     return {.title = "Interpolators",
             .section = "part 2",
-            .news = "Left: perspective-correct. Right: affine, as if the screen were the surface; it breaks along the diagonal.",
+            .news =
+                "Left: perspective-correct. Right: affine, as if the screen were the surface; it breaks along the "
+                "diagonal.",
             .properties = {{"squares", glm::vec4(8.0f), 1.0f, 64.0f, 1, "squares of the board along a side"},
                            {"lean", glm::vec4(60.0f), 0.0f, 89.0f, 1, "how far the quads lean back, degrees"}},
             .inputs = {.mesh = "quad", .albedo = "", .height = "", .normal = "", .detail = ""},

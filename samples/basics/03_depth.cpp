@@ -70,7 +70,7 @@ Stage basics_03_depth()
                         const int third = s.width / 3;
                         s.frame.setViewport({(view - 1) * third, 0, s.width, s.height});
                         s.frame.setScissor({view * third, 0, (view + 1) * third, s.height});
-                        const MyVertexProgram vertex{s.object(turned[k] * scaling(glm::vec3(0.62f)))};
+                        const MyVertexProgram vertex{s.object(turned[k] * scaling(glm::vec3(0.54f)))};
                         if (view == 0) s.frame.draw<kBothSides>(s.mesh, vertex, ShowColor{colors[k]});
                         if (view == 1) s.frame.draw<kBothSides>(s.mesh, vertex, ShowDepth{});
                         if (view == 2) s.frame.draw<kBothSides>(s.mesh, vertex, ShowInverseW{});

@@ -40,7 +40,8 @@ struct MyFragmentProgram
     float4 operator()(Interpolators i) const { return tex2D(mainTex, i.uv); }
 };
 
-// A colour for every mip level, blended as trilinear filtering blends: red 0, yellow 1, green 2, cyan 3, blue from 4 on.
+// A colour for every mip level, blended as trilinear filtering blends: red 0, yellow 1, green 2, cyan 3, blue from 4
+// on.
 struct ShowMipLevel
 {
     sampler2D mainTex;
@@ -56,31 +57,36 @@ struct ShowMipLevel
 
 Stage basics_04_texture()
 {
-    return {.title = "Texture",
-            .section = "part 3",
-            .news = "From left to right: nearest, bilinear, trilinear, anisotropic 16x, and the mip level as a colour.",
-            .properties = {{"mainTex_ST", {24, 24, 0, 0}, -256.0f, 256.0f, 4, "tiling in x and y, offset in z and w"},
-                           {"maxAnisotropy", glm::vec4(16.0f), 1.0f, 16.0f, 1, "samples along the longer axis, at most"}},
-            .inputs = {.mesh = "quad", .albedo = "marble-albedo.png", .height = "", .normal = "", .detail = ""},
-            .camera = {.position = {0.0f, 0.35f, -5.0f}, .target = {0.0f, -0.15f, -3.0f}, .nearPlane = 0.1f, .farPlane = 1000.0f},
-            .draw = [](const Scene& s) {
-                const MyVertexProgram vertex{s.object(rotationX(90.0f) * scaling(glm::vec3(60.0f))), s.vector("mainTex_ST")};
-                sampler2D mainTex = s.mainTex;
-                const auto strip = [&](int k, auto program) {
-                    s.cutStrip(static_cast<float>(k) / 5, static_cast<float>(k + 1) / 5);
-                    s.frame.draw(s.mesh, vertex, program);
-                };
-                strip(4, ShowMipLevel{mainTex});
-                strip(2, MyFragmentProgram{mainTex});
-                mainTex.maxAnisotropy = static_cast<int>(s.number("maxAnisotropy")[0]);
-                strip(3, MyFragmentProgram{mainTex});
-                mainTex.maxAnisotropy = 1;
-                mainTex.mipmaps = false;
-                mainTex.filter = Filter::bilinear;
-                strip(1, MyFragmentProgram{mainTex});
-                mainTex.filter = Filter::nearest;
-                strip(0, MyFragmentProgram{mainTex});
-            }};
+    return {
+        .title = "Texture",
+        .section = "part 3",
+        .news = "From left to right: nearest, bilinear, trilinear, anisotropic 16x, and the mip level as a colour.",
+        .properties = {{"mainTex_ST", {24, 24, 0, 0}, -256.0f, 256.0f, 4, "tiling in x and y, offset in z and w"},
+                       {"maxAnisotropy", glm::vec4(16.0f), 1.0f, 16.0f, 1, "samples along the longer axis, at most"}},
+        .inputs = {.mesh = "quad", .albedo = "marble-albedo.png", .height = "", .normal = "", .detail = ""},
+        .camera = {.position = {0.0f, 0.35f, -5.0f},
+                   .target = {0.0f, -0.15f, -3.0f},
+                   .nearPlane = 0.1f,
+                   .farPlane = 1000.0f},
+        .draw = [](const Scene& s) {
+            const MyVertexProgram vertex{s.object(rotationX(90.0f) * scaling(glm::vec3(60.0f))),
+                                         s.vector("mainTex_ST")};
+            sampler2D mainTex = s.mainTex;
+            const auto strip = [&](int k, auto program) {
+                s.cutStrip(static_cast<float>(k) / 5, static_cast<float>(k + 1) / 5);
+                s.frame.draw(s.mesh, vertex, program);
+            };
+            strip(4, ShowMipLevel{mainTex});
+            strip(2, MyFragmentProgram{mainTex});
+            mainTex.maxAnisotropy = static_cast<int>(s.number("maxAnisotropy")[0]);
+            strip(3, MyFragmentProgram{mainTex});
+            mainTex.maxAnisotropy = 1;
+            mainTex.mipmaps = false;
+            mainTex.filter = Filter::bilinear;
+            strip(1, MyFragmentProgram{mainTex});
+            mainTex.filter = Filter::nearest;
+            strip(0, MyFragmentProgram{mainTex});
+        }};
 }
 
 }  // namespace relief::samples

@@ -50,18 +50,21 @@ struct MyFragmentProgram
 
 Stage basics_05_combining_textures()
 {
-    return {.title = "Combining textures",
-            .section = "part 3",
-            .news = "A detail texture, tiled ten times as fine, gives the marble its grain.",
-            .properties = {{"tint", glm::vec4(1.0f), 0.0f, 1.0f, 4, "colour that the texture is multiplied by"},
-                           {"mainTex_ST", {1, 1, 0, 0}, -16.0f, 16.0f, 4, "tiling in x and y, offset in z and w"},
-                           {"detailTex_ST", {10, 10, 0, 0}, -64.0f, 64.0f, 4, "the same for the detail texture"}},
-            .inputs = {.mesh = "quad", .albedo = "marble-albedo.png", .height = "", .normal = "", .detail = "marble-detail.png"},
-            .camera = {.position = {0.0f, 0.0f, -1.2f}},
-            .draw = [](const Scene& s) {
-                s.frame.draw(s.mesh, MyVertexProgram{s.object(glm::mat4(1.0f)), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                             MyFragmentProgram{s.vector("tint"), s.mainTex, s.detailTex});
-            }};
+    return {
+        .title = "Combining textures",
+        .section = "part 3",
+        .news = "A detail texture, tiled ten times as fine, gives the marble its grain.",
+        .properties = {{"tint", glm::vec4(1.0f), 0.0f, 1.0f, 4, "colour that the texture is multiplied by"},
+                       {"mainTex_ST", {1, 1, 0, 0}, -16.0f, 16.0f, 4, "tiling in x and y, offset in z and w"},
+                       {"detailTex_ST", {10, 10, 0, 0}, -64.0f, 64.0f, 4, "the same for the detail texture"}},
+        .inputs =
+            {.mesh = "quad", .albedo = "marble-albedo.png", .height = "", .normal = "", .detail = "marble-detail.png"},
+        .camera = {.position = {0.0f, 0.0f, -1.2f}},
+        .draw = [](const Scene& s) {
+            s.frame.draw(s.mesh,
+                         MyVertexProgram{s.object(glm::mat4(1.0f)), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
+                         MyFragmentProgram{s.vector("tint"), s.mainTex, s.detailTex});
+        }};
 }
 
 }  // namespace relief::samples

@@ -85,8 +85,8 @@ Stage bumpiness_08_along_v()
             .draw = [](const Scene& s) {
                 s.frame.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
                              MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                               s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap, s.heightMap_TexelSize,
-                                               s.number("bumpScale")});
+                                               s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap,
+                                               s.heightMap_TexelSize, s.number("bumpScale")});
             }};
 }
 

@@ -91,14 +91,17 @@ Stage bumpiness_09_both_dimensions()
     return {.title = "Both dimensions",
             .section = "1.6",
             .news = "Both slopes at once: complete normals from a height map.",
-            .properties = litProperties({bumpScaleProperty(), {"crossProduct", glm::vec4(0.0f), 0.0f, 1.0f, 1, "1: by cross product; the same bits"}}),
+            .properties =
+                litProperties({bumpScaleProperty(),
+                               {"crossProduct", glm::vec4(0.0f), 0.0f, 1.0f, 1, "1: by cross product; the same bits"}}),
             .inputs = {.mesh = "quad", .albedo = kNone, .height = "marble-heights.png"},
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
             .draw = [](const Scene& s) {
-                s.frame.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                             MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                               s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap, s.heightMap_TexelSize,
-                                               s.number("bumpScale"), s.number("crossProduct")[0] > 0.5f});
+                s.frame.draw(
+                    s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
+                    MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
+                                      s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap, s.heightMap_TexelSize,
+                                      s.number("bumpScale"), s.number("crossProduct")[0] > 0.5f});
             }};
 }
 

@@ -15,8 +15,9 @@ Expected<std::string> assetPath(const std::string& name)
     const std::filesystem::path path = std::filesystem::path(chosen != nullptr ? chosen : RELIEF_ASSET_FOLDER) / name;
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) {
-        return fail(path.string() + ": the sample's own file is missing; restore assets/ (git checkout assets) or set "
-                                    "RELIEF_ASSETS to a folder that has it");
+        return fail(path.string() +
+                    ": the sample's own file is missing; restore assets/ (git checkout assets) or set "
+                    "RELIEF_ASSETS to a folder that has it");
     }
     return path.string();
 }

@@ -8,14 +8,20 @@ namespace relief::samples {
 
 namespace {
 
-float dot(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+float dot(const glm::vec3& a, const glm::vec3& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 glm::vec3 cross(const glm::vec3& a, const glm::vec3& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-glm::vec3 normalize(const glm::vec3& v) { return v * (1.0f / std::sqrt(dot(v, v))); }
+glm::vec3 normalize(const glm::vec3& v)
+{
+    return v * (1.0f / std::sqrt(dot(v, v)));
+}
 
 }  // namespace
 
@@ -52,8 +58,14 @@ glm::mat4 rotationY(float degrees)
     return {{c, 0, -s, 0}, {0, 1, 0, 0}, {s, 0, c, 0}, {0, 0, 0, 1}};
 }
 
-glm::mat4 translation(const glm::vec3& t) { return {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {t.x, t.y, t.z, 1}}; }
+glm::mat4 translation(const glm::vec3& t)
+{
+    return {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {t.x, t.y, t.z, 1}};
+}
 
-glm::mat4 scaling(const glm::vec3& f) { return {{f.x, 0, 0, 0}, {0, f.y, 0, 0}, {0, 0, f.z, 0}, {0, 0, 0, 1}}; }
+glm::mat4 scaling(const glm::vec3& f)
+{
+    return {{f.x, 0, 0, 0}, {0, f.y, 0, 0}, {0, 0, f.z, 0}, {0, 0, 0, 1}};
+}
 
 }  // namespace relief::samples

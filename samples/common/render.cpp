@@ -39,11 +39,12 @@ Expected<void> set(const Stage& stage, std::vector<Property>& properties, const 
         float number = 0.0f;
         const auto [rest, error] = std::from_chars(at, end, number);
         const bool last = rest == end;
-        if (error != std::errc() || !std::isfinite(number) || (!last && (*rest != ',' || i + 1 == property->components))) {
+        if (error != std::errc() || !std::isfinite(number) ||
+            (!last && (*rest != ',' || i + 1 == property->components))) {
             return fail("--set " + setting + ": '" + std::string(setting, equals + 1) + "' is not " +
-                        (property->components == 1 ? std::string("a number")
-                                                   : "up to " + std::to_string(property->components) +
-                                                         " numbers with commas between them"));
+                        (property->components == 1
+                             ? std::string("a number")
+                             : "up to " + std::to_string(property->components) + " numbers with commas between them"));
         }
         if (number < property->minimum || number > property->maximum) {
             return fail("--set " + setting + ": " + text(number) + " is outside the range of " + name + ", " +

@@ -15,9 +15,9 @@ inline constexpr glm::vec4 kBackground{0.035f, 0.04f, 0.05f, 1.0f};
 class PreparedStage
 {
 public:
-    // Each of `settings` is "name=value", where a value is a number or, for colours and vectors, up to four of them with
-    // commas. An unknown name, a value that is no number or out of the property's range, or a file that cannot be read is
-    // an error.
+    // Each of `settings` is "name=value", where a value is a number or, for colours and vectors, up to four of them
+    // with commas. An unknown name, a value that is no number or out of the property's range, or a file that cannot be
+    // read is an error.
     static Expected<PreparedStage> prepare(const Stage& stage, const std::vector<std::string>& settings = {},
                                            const InputFiles& files = {});
 

@@ -93,12 +93,26 @@ Scene::Scene(Frame& target, int w, int h, const Camera& camera, const LoadedInpu
     light.dir = broadcast(towardsLight(angle("lightPitch"), angle("lightYaw")));
 }
 
-float4 Scene::vector(const std::string& name) const { return broadcast(values.at(name)); }
-Float Scene::number(const std::string& name) const { return values.at(name).x; }
+float4 Scene::vector(const std::string& name) const
+{
+    return broadcast(values.at(name));
+}
+Float Scene::number(const std::string& name) const
+{
+    return values.at(name).x;
+}
 
-ObjectTransform Scene::object(const glm::mat4& worldFromObject) const { return {clipFromWorld, worldFromObject}; }
+ObjectTransform Scene::object(const glm::mat4& worldFromObject) const
+{
+    return {clipFromWorld, worldFromObject};
+}
 
-ObjectTransform Scene::lying() const { return object(usersMesh ? glm::mat4(1.0f) : rotationX(90.0f)); }
+ObjectTransform Scene::lying() const
+{
+    // A rotation by 90 degrees about X with exact zeros, so that the quad's normal is (0, 1, 0) to the last bit.
+    const glm::mat4 laid = {{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}};
+    return object(usersMesh ? glm::mat4(1.0f) : laid);
+}
 
 void Scene::cutStrip(float from, float to) const
 {

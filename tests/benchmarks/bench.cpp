@@ -80,13 +80,14 @@ public:
             last = &run;
         }
         if (last == nullptr) return;
-        std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2), seconds.end());
+        std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2),
+                         seconds.end());
         const double median = seconds[seconds.size() / 2];
         const double pixels = last->counters.at("pixels").value, triangles = last->counters.at("triangles").value;
         const std::string name = last->run_name.function_name;
         const std::size_t slash = name.rfind('/');
-        std::printf("%-20s %7s %9.3f %9.3f", name.substr(0, slash).c_str(), name.substr(slash + 1).c_str(), median * 1e3,
-                    best * 1e3);
+        std::printf("%-20s %7s %9.3f %9.3f", name.substr(0, slash).c_str(), name.substr(slash + 1).c_str(),
+                    median * 1e3, best * 1e3);
         if (pixels > 0) {
             std::printf(" %12.3f %13.2f %14.2f", median * 1e9 / pixels, triangles / median * 1e-6,
                         last->counters.at("alone").value / median);

@@ -105,7 +105,10 @@ struct MeshData final : SceneData
     std::optional<Texture> texture;
 };
 
-std::unique_ptr<SceneData> clearOnly(Frame&, int, int) { return std::make_unique<MeshData>(); }
+std::unique_ptr<SceneData> clearOnly(Frame&, int, int)
+{
+    return std::make_unique<MeshData>();
+}
 
 std::unique_ptr<SceneData> layers(Frame& frame, int count)
 {

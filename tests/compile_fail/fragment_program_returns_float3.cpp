@@ -28,4 +28,7 @@ struct MyFragmentProgram
     float3 operator()(Interpolators i) const { return i.normal * 0.5f + 0.5f; }
 };
 
-void draw(Frame& frame, const Mesh& mesh) { frame.draw(mesh, MyVertexProgram{}, MyFragmentProgram{}); }
+void draw(Frame& frame, const Mesh& mesh)
+{
+    frame.draw(mesh, MyVertexProgram{}, MyFragmentProgram{});
+}

@@ -1,6 +1,7 @@
-// One stage against its golden and its hash: `check_stage golden 1.06`, `check_stage hash 1.06`. The picture must be the
-// same byte for byte; the float colours and depths must have the committed hash for every number of threads and every
-// tile size. The number of lanes, the compiler and the build type vary with the build: each is held to the same hash.
+// One stage against its golden and its hash: `check_stage golden 1.06`, `check_stage hash 1.06`. The picture must be
+// the same byte for byte; the float colours and depths must have the committed hash for every number of threads and
+// every tile size. The number of lanes, the compiler and the build type vary with the build: each is held to the same
+// hash.
 #include <cstdio>
 #include <fstream>
 
@@ -40,7 +41,8 @@ Expected<void> checkHash(const Stage& stage)
             const std::string hash = hexadecimal(hashOf(*target));
             if (hash == *expected) continue;
             return fail(stage.id + ": hash " + hash + " with " + std::to_string(threads) + " threads, tiles of " +
-                        std::to_string(tileSize) + " px and " + std::to_string(kLanes) + " lanes; should be " + *expected);
+                        std::to_string(tileSize) + " px and " + std::to_string(kLanes) + " lanes; should be " +
+                        *expected);
         }
     }
     return {};

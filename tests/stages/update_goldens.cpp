@@ -12,8 +12,8 @@ int main()
     for (const Stage& stage : allStages()) {
         const Expected<Framebuffer> picture = renderForGolden(stage, ColorFormat::rgba8Srgb);
         const Expected<Framebuffer> floats = renderForGolden(stage, ColorFormat::rgba32f);
-        const Expected<void> written = picture ? updateGolden(*picture, goldenPath(stage))
-                                               : Expected<void>(tl::unexpected(picture.error()));
+        const Expected<void> written =
+            picture ? updateGolden(*picture, goldenPath(stage)) : Expected<void>(tl::unexpected(picture.error()));
         if (!written || !floats) {
             std::fprintf(stderr, "%s\n", (written ? floats.error() : written.error()).message.c_str());
             return 2;
