@@ -24,6 +24,13 @@ Triangle makeTriangle(const Corners& c, const float (&z)[3], const float (&w)[3]
     return t;
 }
 
+TriangleWeights weightsOf(const Triangle& t)
+{
+    TriangleWeights weights;
+    weights.set(t);
+    return weights;
+}
+
 bool isClockwise(const Corners& c)
 {
     return (std::int64_t{c[1].x} - c[0].x) * (std::int64_t{c[2].y} - c[0].y) >
@@ -87,7 +94,7 @@ Errors measure(const Corners& c, const float (&z)[3], const float (&w)[3], const
 {
     Errors errors;
     const Triangle t = makeTriangle(c, z, w);
-    const TriangleWeights weights(t);
+    const TriangleWeights weights = weightsOf(t);
     CornerComponents<1> corners;
     corners.set(&v[0], &v[1], &v[2]);
     const double largest = std::fmax(std::fabs(v[0]), std::fmax(std::fabs(v[1]), std::fabs(v[2])));
@@ -262,7 +269,7 @@ TEST_CASE("interpolate: a value that is equal at all corners comes out unchanged
         if (!isClockwise(c)) std::swap(c[1], c[2]);
         if (!isClockwise(c)) continue;
         const float value = random.real(-100, 100);
-        const TriangleWeights weights(makeTriangle(
+        const TriangleWeights weights = weightsOf(makeTriangle(
             c, {0.3f, 0.3f, 0.3f}, {random.real(0.001f, 1000), random.real(0.001f, 1000), random.real(0.001f, 1000)}));
         CornerComponents<1> corners;
         corners.set(&value, &value, &value);
@@ -284,7 +291,7 @@ TEST_CASE("interpolate: with equal w at all corners perspective is affine (S-404
         if (!isClockwise(c)) std::swap(c[1], c[2]);
         if (!isClockwise(c)) continue;
         const float w = random.real(0.001f, 1000);
-        const TriangleWeights weights(makeTriangle(c, {0, 0, 0}, {w, w, w}));
+        const TriangleWeights weights = weightsOf(makeTriangle(c, {0, 0, 0}, {w, w, w}));
         const float v[3] = {random.real(0, 1), random.real(0, 1), random.real(0, 1)};
         CornerComponents<1> corners;
         corners.set(&v[0], &v[1], &v[2]);
