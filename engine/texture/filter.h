@@ -136,20 +136,26 @@ template <class Fetch>
 }
 
 // Every lane on its own level, `lod` in 0..levels - 1 with kLodBits of fraction. One round per distinct level.
+//
+// `guess` is the level that a caller expects, 0..levels - 1. It changes no result: where it is right, as it mostly is,
+// the processor predicts the branch and is at the texels before the logarithm in `lod` is done.
 template <class Fetch>
-[[gnu::always_inline]] inline float4 sampleEachLevel(const Place& place, Int lod)
+[[gnu::always_inline]] inline float4 sampleEachLevel(const Place& place, Int lod, int guess)
 {
     const bool trilinear = place.sampler.filter == Filter::trilinear;
     const Int level = (trilinear ? lod : lod + kLodOne / 2) >> kLodBits;
     const Int fraction = lod & (kLodOne - 1);
-    std::int32_t levels[kLanes];
-    level.store(levels);
 
     unsigned waiting = wantedLanes();
     Mask done = false;
     float4 result(Float(0.0f));
     do {
-        const int k = levels[std::countr_zero(waiting)];
+        int k = guess;
+        if (((level == k).bits() & waiting) != waiting) [[unlikely]] {
+            std::int32_t levels[kLanes];
+            level.store(levels);
+            k = levels[std::countr_zero(waiting)];
+        }
         const Mask here = level == k;
         const float4 colour = sampleLevels<Fetch>(place, k, fraction, here.bits() & waiting);
         for (int c = 0; c < 4; ++c) result[c] = select(done, result[c], colour[c]);

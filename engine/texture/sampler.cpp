@@ -34,9 +34,9 @@ template <class Fetch>
 }
 
 template <class Fetch>
-[[gnu::noinline]] float4 mipChainIn(const sampler2D& s, const Texture& texture, Float u, Float v, Int lod)
+[[gnu::noinline]] float4 mipChainIn(const sampler2D& s, const Texture& texture, Float u, Float v, Int lod, int guess)
 {
-    return Fetch::toUnit(sampleEachLevel<Fetch>(placeOf(s, texture, u, v), lod));
+    return Fetch::toUnit(sampleEachLevel<Fetch>(placeOf(s, texture, u, v), lod, guess));
 }
 
 inline float4 sampleFinest(const sampler2D& s, const Texture& texture, Float u, Float v)
@@ -52,17 +52,17 @@ inline float4 sampleFinest(const sampler2D& s, const Texture& texture, Float u, 
     return finestIn<FetchRgba32Float>(s, texture, u, v);
 }
 
-inline float4 sampleMipChain(const sampler2D& s, const Texture& texture, Float u, Float v, Int lod)
+inline float4 sampleMipChain(const sampler2D& s, const Texture& texture, Float u, Float v, Int lod, int guess)
 {
     switch (texture.format()) {
         case TexelFormat::rgba8:
-            return mipChainIn<FetchRgba8>(s, texture, u, v, lod);
+            return mipChainIn<FetchRgba8>(s, texture, u, v, lod, guess);
         case TexelFormat::rgba16:
-            return mipChainIn<FetchRgba16>(s, texture, u, v, lod);
+            return mipChainIn<FetchRgba16>(s, texture, u, v, lod, guess);
         case TexelFormat::rgba32Float:
             break;
     }
-    return mipChainIn<FetchRgba32Float>(s, texture, u, v, lod);
+    return mipChainIn<FetchRgba32Float>(s, texture, u, v, lod, guess);
 }
 
 // --- counting (see fetch_counters.h) ---
@@ -107,7 +107,7 @@ inline float4 sampleFinestCounted(const sampler2D& s, const Texture& texture, Fl
 }
 
 [[gnu::always_inline]] inline float4 sampleIsotropic(const sampler2D& s, const Texture& texture, Float u, Float v,
-                                                     Float lod)
+                                                     Float lod, int guess)
 {
     const Int fixed = fixedLevel(s, texture, lod);
     const unsigned onFinest = (fixed == 0).bits();
@@ -115,7 +115,16 @@ inline float4 sampleFinestCounted(const sampler2D& s, const Texture& texture, Fl
     countLevels(s, onFinest, ((fixed & (kLodOne - 1)) == 0).bits());
     if (isAnisotropic(s)) fetchCounters.taps += countOf(activeLanes);  // tex2Dlod
     if ((wantedLanes() & ~onFinest) == 0) return sampleFinest(s, texture, u, v);
-    return sampleMipChain(s, texture, u, v, fixed);
+    return sampleMipChain(s, texture, u, v, fixed, guess);
+}
+
+// The level that a block most likely wants, quickly: half the exponent of the first lane's `square` is the integer part
+// of its level, before bias and limits.
+inline int likelyLevel(const sampler2D& s, const Texture& texture, Float square)
+{
+    const int exponent = (asInt(square)[0] >> 23) - 127;
+    const int level = (s.filter == Filter::trilinear ? exponent : exponent + 1) >> 1;
+    return std::clamp(level, 0, texture.levelCount() - 1);
 }
 
 // The average of the taps, which lie evenly on the footprint's axis: tap i of n at (2 i + 1 - n) / 2n of it. It is kept
@@ -129,6 +138,7 @@ float4 sampleAnisotropic(const sampler2D& s, const Texture& texture, Float u, Fl
     const glm::vec4& size = texture.texelSize();
     const float2 axis = {footprint.axis.x * size.x, footprint.axis.y * size.y};
     const Float perTap = 0.5f / footprint.taps;
+    const int guess = fixed[0] >> kLodBits;
 
     float4 mean;
     for (int i = 0; i < 16; ++i) {
@@ -137,7 +147,7 @@ float4 sampleAnisotropic(const sampler2D& s, const Texture& texture, Float u, Fl
         if (lanes == 0) break;
         fetchCounters.taps += countOf(lanes & activeLanes);
         const Float along = (static_cast<float>(2 * i + 1) - footprint.taps) * perTap;
-        const float4 tap = sampleMipChain(s, texture, u + axis.x * along, v + axis.y * along, fixed);
+        const float4 tap = sampleMipChain(s, texture, u + axis.x * along, v + axis.y * along, fixed, guess);
         if (i == 0) {
             mean = tap;
         } else {
@@ -201,7 +211,7 @@ template <class Function>
         const auto limit = static_cast<float>(std::min(s.maxAnisotropy, 16));
         return sampleAnisotropic(s, texture, u, v, anisotropicFootprint(dX, dY, limit), wholeBias);
     }
-    return sampleIsotropic(s, texture, u, v, 0.5f * log2(square) + wholeBias);
+    return sampleIsotropic(s, texture, u, v, 0.5f * log2(square) + wholeBias, likelyLevel(s, texture, square));
 }
 
 Float impliedLevel(const sampler2D& s, const Texture& texture, const float2& uv)
@@ -230,7 +240,7 @@ float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod)
     const Texture& texture = textureOf(s);
     if (isConstant(s, texture)) return sampleConstant(s, texture);
     if (!s.mipmaps || texture.levelCount() == 1) return sampleFinestCounted(s, texture, u, v);
-    return sampleIsotropic(s, texture, u, v, lod + limitBias(s, 0.0f));
+    return sampleIsotropic(s, texture, u, v, lod + limitBias(s, 0.0f), 0);
 }
 
 }  // namespace detail
