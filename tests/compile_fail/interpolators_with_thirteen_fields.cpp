@@ -29,4 +29,7 @@ struct MyFragmentProgram
     float4 operator()(Interpolators i) const { return float4(i.normal * 0.5f + 0.5f, 1.0f); }
 };
 
-void draw(Frame& frame, const Mesh& mesh) { frame.draw(mesh, MyVertexProgram{}, MyFragmentProgram{}); }
+void draw(Frame& frame, const Mesh& mesh)
+{
+    frame.draw(mesh, MyVertexProgram{}, MyFragmentProgram{});
+}
