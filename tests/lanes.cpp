@@ -178,11 +178,11 @@ constexpr std::int64_t kTwo53 = std::int64_t{1} << 53;
 // Different numbers in the lanes, close to +-limit.
 Double nearLimit(double limit, double step)
 {
-    Double d = limit;
-    for (int i = 0; i < kLanes; ++i) {
-        const double number = (i % 2 == 0 ? 1.0 : -1.0) * (limit - step * i);
-        (i < kLanes / 2 ? d.low : d.high)[i % (kLanes / 2)] = number;
-    }
+    double numbers[kLanes];
+    for (int i = 0; i < kLanes; ++i) numbers[i] = (i % 2 == 0 ? 1.0 : -1.0) * (limit - step * i);
+    Double d;
+    std::memcpy(&d.low, numbers, sizeof d.low);
+    std::memcpy(&d.high, numbers + kLanes / 2, sizeof d.high);
     return d;
 }
 
