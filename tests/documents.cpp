@@ -137,6 +137,22 @@ TEST_CASE("documents: the engine's folders include downwards only")
     CHECK(checked > 50);
 }
 
+TEST_CASE("documents: test names have no character that splits or joins CMake's lists")
+{
+    // doctest_discover_tests would lose or merge tests, in silence.
+    const std::regex name(R"re(TEST_CASE\("([^"]*)"\))re");
+    int checked = 0;
+    for (const fs::path& path : filesEndingIn(kSource / "tests", ".cpp")) {
+        const std::string text = contents(path);
+        for (auto it = std::sregex_iterator(text.begin(), text.end(), name); it != std::sregex_iterator(); ++it) {
+            CAPTURE((*it)[1].str());
+            CHECK((*it)[1].str().find_first_of(";[]") == std::string::npos);
+            ++checked;
+        }
+    }
+    CHECK(checked > 300);
+}
+
 TEST_CASE("documents: nothing in the engine prints, exits or throws")
 {
     const std::regex forbidden(R"(\b(printf|std::cout|std::cerr|exit\(|abort\(|throw )\b)");

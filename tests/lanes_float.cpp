@@ -182,7 +182,7 @@ TEST_CASE("Float: saturate of NaN is 0")
     CHECK(asInt(saturate(Float(-kNan)))[kLanes - 1] == 0);
 }
 
-TEST_CASE("Float: saturate stays in [0, 1] and has no negative zero")
+TEST_CASE("Float: saturate stays in 0 to 1 and has no negative zero")
 {
     const auto reference = [](float a) { return a > 0.0f ? (a < 1.0f ? a : 1.0f) : 0.0f; };
     CHECK(difference(
