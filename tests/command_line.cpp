@@ -251,6 +251,19 @@ TEST_CASE("command line: explain counts, hash does not depend on threads or tile
     CHECK(run(folder.path, "hash 1.09 --size 96x54 --threads 3 --tile 128").out == one);
 }
 
+TEST_CASE("command line: bumps of no height are the flat quad, and both ways to build a normal are one, bit for bit")
+{
+    const TemporaryFolder folder;
+    const auto hash = [&](const std::string& arguments) {
+        return run(folder.path, "hash " + arguments + " --size 192x108").out.substr(0, 16);
+    };
+    const std::string flat = hash("1.01");
+    CHECK(flat.size() == 16);
+    for (const std::string stage : {"1.06", "1.07", "1.08", "1.09"}) CHECK(hash(stage + " --set bumpScale=0") == flat);
+    CHECK(hash("1.09") != flat);
+    CHECK(hash("1.09 --set crossProduct=1") == hash("1.09"));
+}
+
 TEST_CASE("command line: the gallery has every picture and a page that names them")
 {
     const TemporaryFolder folder;

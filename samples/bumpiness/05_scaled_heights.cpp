@@ -76,18 +76,19 @@ struct MyFragmentProgram
 
 Stage bumpiness_05_scaled_heights()
 {
-    return {.title = "Scaled heights",
-            .section = "1.4",
-            .news = "Wrong on purpose: slopes of a sensible size, but still a tangent, so far too dark.",
-            .properties = litProperties({bumpScaleProperty()}),
-            .inputs = {.mesh = "quad", .albedo = kNone, .height = "marble-heights.png"},
-            .camera = {.position = {0.0f, 0.9f, -0.75f}},
-            .draw = [](const Scene& s) {
-                s.frame.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                             MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                               s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap,
-                                               s.heightMap_TexelSize, s.number("bumpScale")});
-            }};
+    return {
+        .title = "Scaled heights",
+        .section = "1.4",
+        .news = "Wrong on purpose: slopes of a sensible size, but still a tangent: lit as if the floor were a wall.",
+        .properties = litProperties({bumpScaleProperty()}),
+        .inputs = {.mesh = "quad", .albedo = kNone, .height = "marble-heights.png"},
+        .camera = {.position = {0.0f, 0.9f, -0.75f}},
+        .draw = [](const Scene& s) {
+            s.frame.draw(
+                s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
+                MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos,
+                                  s.light, s.mainTex, s.heightMap, s.heightMap_TexelSize, s.number("bumpScale")});
+        }};
 }
 
 }  // namespace relief::samples

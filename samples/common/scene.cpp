@@ -110,7 +110,7 @@ ObjectTransform Scene::object(const glm::mat4& worldFromObject) const
 ObjectTransform Scene::lying() const
 {
     // A rotation by 90 degrees about X with exact zeros, so that the quad's normal is (0, 1, 0) to the last bit.
-    const glm::mat4 laid = {{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}};
+    const glm::mat4 laid = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}};
     return object(usersMesh ? glm::mat4(1.0f) : laid);
 }
 
