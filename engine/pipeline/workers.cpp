@@ -35,14 +35,31 @@ void Workers::run(int tasks, Job job)
 
 #else
 
+namespace {
+
+// Waits for a condition by looking at it for some 50 us, which is how far apart the rounds of a frame are. Falling
+// asleep and being woken costs as much, and more in a virtual machine. Gives way to other threads now and then. Whoever
+// sees false has to sleep.
+template <class Condition>
+bool spinUntil(const Condition& condition)
+{
+    for (int i = 0; i < 1000; ++i) {
+        if (condition()) return true;
+        if (i % 16 == 15) std::this_thread::yield();
+    }
+    return false;
+}
+
+}  // namespace
+
 struct Workers::Pool
 {
     std::mutex mutex;
     std::condition_variable wake;
     std::condition_variable done;
-    std::uint64_t generation = 0;  // of the job; a change wakes the workers
-    int busy = 0;                  // workers that have not finished this job
-    bool stop = false;
+    std::atomic<std::uint64_t> generation{0};  // of the job; a change wakes the workers
+    std::atomic<int> busy{0};                  // workers that have not finished this job
+    std::atomic<bool> stop{false};
 
     Job job{};
     int tasks = 0;
@@ -63,16 +80,19 @@ struct Workers::Pool
     void loop(int worker)
     {
         std::uint64_t seen = 0;
+        const auto called = [&] { return stop || generation != seen; };
         for (;;) {
+            spinUntil(called);
             {
                 std::unique_lock lock(mutex);
-                wake.wait(lock, [&] { return stop || generation != seen; });
+                wake.wait(lock, called);
                 if (stop) return;
                 seen = generation;
             }
             work(worker);
-            const std::scoped_lock lock(mutex);
-            if (--busy == 0) done.notify_one();
+            if (--busy != 0) continue;
+            const std::scoped_lock lock(mutex);  // the caller may be between looking and falling asleep
+            done.notify_one();
         }
     }
 };
@@ -108,8 +128,10 @@ void Workers::run(int tasks, Job job)
     }
     p.wake.notify_all();
     p.work(0);
+    const auto finished = [&] { return p.busy == 0; };
+    if (spinUntil(finished)) return;
     std::unique_lock lock(p.mutex);
-    p.done.wait(lock, [&] { return p.busy == 0; });
+    p.done.wait(lock, finished);
 }
 
 #endif
