@@ -151,3 +151,15 @@ TEST_CASE("derivatives: a NaN reaches the pixels that read it, and no others")
         CHECK(std::isnan(dy[i]) == (i == 1 || i == 3));
     }
 }
+
+TEST_CASE("derivatives: coarse ones of a vector are those of its components")
+{
+    float lanes[kLanes];
+    for (int i = 0; i < kLanes; ++i) lanes[i] = static_cast<float>(i * i);
+    const Float a = Float::load(lanes), b = a * 3.0f + 1.0f;
+    const float2 v(a, b);
+    CHECK(all(ddx_coarse(v).x == ddx_coarse(a)));
+    CHECK(all(ddx_coarse(v).y == ddx_coarse(b)));
+    CHECK(all(ddy_coarse(v).x == ddy_coarse(a)));
+    CHECK(all(ddy_coarse(v).y == ddy_coarse(b)));
+}

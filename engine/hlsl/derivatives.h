@@ -24,20 +24,40 @@ inline Float ddy_coarse(Float v)
     return permuteQuad<2, 2, 2, 2>(v) - permuteQuad<0, 0, 0, 0>(v);
 }
 
+namespace detail {
+
+template <int size, class Function>
+FloatN<size> eachComponent(const FloatN<size>& v, Function function)
+{
+    FloatN<size> r;
+    for (int i = 0; i < size; ++i) r[i] = function(v[i]);
+    return r;
+}
+
+}  // namespace detail
+
 template <int size>
 FloatN<size> ddx(const FloatN<size>& v)
 {
-    FloatN<size> r;
-    for (int i = 0; i < size; ++i) r[i] = ddx(v[i]);
-    return r;
+    return detail::eachComponent(v, [](Float x) { return ddx(x); });
 }
 
 template <int size>
 FloatN<size> ddy(const FloatN<size>& v)
 {
-    FloatN<size> r;
-    for (int i = 0; i < size; ++i) r[i] = ddy(v[i]);
-    return r;
+    return detail::eachComponent(v, [](Float x) { return ddy(x); });
+}
+
+template <int size>
+FloatN<size> ddx_coarse(const FloatN<size>& v)
+{
+    return detail::eachComponent(v, [](Float x) { return ddx_coarse(x); });
+}
+
+template <int size>
+FloatN<size> ddy_coarse(const FloatN<size>& v)
+{
+    return detail::eachComponent(v, [](Float x) { return ddy_coarse(x); });
 }
 
 }  // namespace relief

@@ -1,0 +1,91 @@
+// Golden pictures: the same picture passes; a missing, unreadable, differently sized or different one fails and says
+// so.
+#include "check/golden.h"
+
+#include <filesystem>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "temporary_folder.h"
+#include "texture/image.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace relief;
+
+// A small picture in which every pixel is another colour.
+Framebuffer picture(int width, int height)
+{
+    Framebuffer target = *Framebuffer::create(width, height);
+    std::uint32_t color = 0xff000000u;
+    for (std::uint32_t& pixel : target.color8()) pixel = color += 0x010203u;
+    return target;
+}
+
+// The message of a check that must fail, with the words it must have.
+void checkFails(const Framebuffer& target, const fs::path& golden, const fs::path& failures, const char* word)
+{
+    const Expected<void> result = checkGolden(target, golden, failures);
+    REQUIRE_FALSE(result);
+    CAPTURE(result.error().message);
+    CHECK(result.error().message.find(word) != std::string::npos);
+    CHECK(result.error().message.find("update_goldens") != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("golden: what updateGolden wrote, checkGolden accepts, and leaves nothing behind")
+{
+    const TemporaryFolder folder;
+    const Framebuffer target = picture(13, 7);
+    REQUIRE(updateGolden(target, folder / "some/where.png"));
+    CHECK(checkGolden(target, folder / "some/where.png", folder / "failures"));
+    CHECK_FALSE(fs::exists(folder / "failures"));
+}
+
+TEST_CASE("golden: a missing golden fails, and the picture is kept to be looked at")
+{
+    const TemporaryFolder folder;
+    checkFails(picture(13, 7), folder / "missing.png", folder / "failures", "missing.png");
+    CHECK(readImage(folder / "failures/missing.actual.png"));
+}
+
+TEST_CASE("golden: an unreadable golden fails")
+{
+    const TemporaryFolder folder;
+    checkFails(picture(13, 7), folder.write("text.png", "no picture"), folder / "failures", "text.png");
+    checkFails(picture(13, 7), folder.write("empty.png", ""), folder / "failures", "empty.png");
+}
+
+TEST_CASE("golden: a golden of another size fails")
+{
+    const TemporaryFolder folder;
+    REQUIRE(updateGolden(picture(13, 8), folder / "tall.png"));
+    checkFails(picture(13, 7), folder / "tall.png", folder / "failures", "is 13x8, the picture 13x7");
+}
+
+TEST_CASE("golden: one bit in one pixel fails, is named, and is shown eight times as large")
+{
+    const TemporaryFolder folder;
+    const Framebuffer target = picture(13, 7);
+    Framebuffer other = target;
+    other.color8()[13 * 2 + 5] ^= 0x000100u;  // green of (5, 2)
+    REQUIRE(updateGolden(other, folder / "bit.png"));
+    checkFails(target, folder / "bit.png", folder / "failures", "1 pixels differ\n  (5, 2)");
+    const Expected<ImageFile> difference = readImage(folder / "failures/bit.difference.png");
+    REQUIRE(difference);
+    const Image8& shown = std::get<Image8>(*difference);
+    for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
+        const int expected = i % 4 == 3 ? 255 : i == (13 * 2 + 5) * 4 + 1 ? 8 : 0;
+        CHECK(shown.pixels[i] == expected);
+    }
+}
+
+TEST_CASE("golden: a float target is refused, not compared")
+{
+    const TemporaryFolder folder;
+    const Framebuffer target = *Framebuffer::create(4, 4, ColorFormat::rgba32f);
+    CHECK_FALSE(checkGolden(target, folder / "float.png", folder / "failures"));
+}
