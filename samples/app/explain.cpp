@@ -75,7 +75,7 @@ std::vector<Row> rows(const Statistics& s, const SlotUse& slots, const MipUse& m
         {"texture fetches, bilinear", s.fetches.bilinear, ""},
         {"texture fetches, trilinear", s.fetches.trilinear, ""},
         {"texture fetches, anisotropic", s.fetches.anisotropic, ""},
-        {"  second mip level left out", s.fetches.secondLevelSkipped, "its weight was 0 in the whole block"},
+        {"  second mip level left out", s.fetches.secondLevelSkipped, "the level of detail was a whole number, or 0"},
         {"  magnified, finest level only", s.fetches.magnified, ""},
         {"  constant textures, no fetch", s.fetches.constant, ""},
         {"mip levels built", static_cast<std::uint64_t>(mips.built), "of " + std::to_string(mips.whole)},
