@@ -353,7 +353,7 @@ struct FrontEnd
         : clip(std::move(positions)), indices(std::move(corners)), screen(clip.size()), codes(clip.size())
     {
         draw.indices = indices.data();
-        draw.triangleCount = static_cast<std::uint32_t>(indices.size() / 3);
+        draw.primitiveCount = static_cast<std::uint32_t>(indices.size() / 3);
         draw.vertexCount = static_cast<std::uint32_t>(clip.size());
         draw.clip = clip.data();
         draw.screen = screen.data();

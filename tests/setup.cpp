@@ -56,9 +56,9 @@ TEST_CASE("setup: what is kept is clockwise, has a sample, and keeps its corners
         TriangleChunk chunk;
         Statistics statistics;
         // In two parts that do not end with a full block of lanes.
-        const std::uint32_t part = frontEnd.draw.triangleCount / 2 + 1;
+        const std::uint32_t part = frontEnd.draw.primitiveCount / 2 + 1;
         setUpTriangles(frontEnd.draw, 0, part, chunk, statistics);
-        setUpTriangles(frontEnd.draw, part, frontEnd.draw.triangleCount - part, chunk, statistics);
+        setUpTriangles(frontEnd.draw, part, frontEnd.draw.primitiveCount - part, chunk, statistics);
 
         std::size_t next = 0;
         std::uint64_t facingAway = 0, withoutSample = 0, outside = 0;
@@ -193,7 +193,7 @@ TEST_CASE("setup: each reason to drop a triangle is counted as itself (S-101, S-
     frontEnd.project();
     TriangleChunk chunk;
     Statistics statistics;
-    setUpTriangles(frontEnd.draw, 0, frontEnd.draw.triangleCount, chunk, statistics);
+    setUpTriangles(frontEnd.draw, 0, frontEnd.draw.primitiveCount, chunk, statistics);
     for (const Case& c : cases) CHECK(statistics.*c.counter == expected.*c.counter);
     CHECK(addsUp(statistics));
 }

@@ -245,4 +245,16 @@ constexpr int positionCount(FieldList<Field...>)
     return (0 + ... + (Field::kIsPosition ? 1 : 0));
 }
 
+// Whether a struct has a field of this semantic.
+template <class Wanted, class... Field>
+constexpr bool hasField(FieldList<Field...>)
+{
+    return (false || ... || std::is_same_v<Wanted, Field>);
+}
+template <class Wanted, class Struct>
+constexpr bool hasField()
+{
+    return hasField<Wanted>(FieldsOf<Struct>{});
+}
+
 }  // namespace relief

@@ -94,4 +94,14 @@ inline float4x4 broadcast(const glm::mat4& m)
     return {broadcast(m[0]), broadcast(m[1]), broadcast(m[2]), broadcast(m[3])};
 }
 
+// Back again: of a uniform, in which all lanes are the same.
+inline glm::mat4 firstLane(const float4x4& m)
+{
+    glm::mat4 r;
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) r[column][row] = m[column][row][0];
+    }
+    return r;
+}
+
 }  // namespace relief

@@ -83,6 +83,14 @@ ClipVertex cut(Plane plane, const ClipLimits& limits, const ClipVertex& inside, 
     return v;
 }
 
+constexpr Plane kPlanes[] = {Plane::smallW, Plane::near,   Plane::far, Plane::left,
+                             Plane::right,  Plane::bottom, Plane::top};
+
+bool isLeftOut(Plane plane, const ClipLimits& limits)
+{
+    return !limits.depthClip && (plane == Plane::near || plane == Plane::far);
+}
+
 }  // namespace
 
 int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span<ClipVertex, kMaxClippedVertices> out)
@@ -96,9 +104,8 @@ int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span
     }
 
     int count = 3;
-    for (const Plane plane :
-         {Plane::smallW, Plane::near, Plane::far, Plane::left, Plane::right, Plane::bottom, Plane::top}) {
-        if (!limits.depthClip && (plane == Plane::near || plane == Plane::far)) continue;
+    for (const Plane plane : kPlanes) {
+        if (isLeftOut(plane, limits)) continue;
         int kept = 0;
         for (int i = 0; i < count; ++i) {
             const ClipVertex& a = polygon[i];
@@ -115,6 +122,22 @@ int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span
     }
     std::copy_n(polygon, count, out.begin());
     return count;
+}
+
+bool clipLine(const glm::vec4 ends[2], const ClipLimits& limits, ClipVertex out[2])
+{
+    out[0] = {ends[0], {1.0f, 0.0f, 0.0f}};
+    out[1] = {ends[1], {0.0f, 1.0f, 0.0f}};
+    for (const Plane plane : kPlanes) {
+        if (isLeftOut(plane, limits)) continue;
+        const double d0 = distance(plane, out[0].position, limits);
+        const double d1 = distance(plane, out[1].position, limits);
+        if (d0 < 0.0 && d1 < 0.0) return false;
+        // An end on the plane and the other outside leaves a point: both ends are then the same, and cover nothing.
+        if (d1 < 0.0) out[1] = d0 > 0.0 ? cut(plane, limits, out[0], d0, out[1], d1) : out[0];
+        if (d0 < 0.0) out[0] = d1 > 0.0 ? cut(plane, limits, out[1], d1, out[0], d0) : out[1];
+    }
+    return true;
 }
 
 }  // namespace relief

@@ -27,4 +27,8 @@ inline constexpr int kMaxClippedVertices = 3 + 7;  // a corner more for each pla
 // on an edge is computed from the inside end to the outside end, whichever triangle asks: neighbours get the same bits.
 int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span<ClipVertex, kMaxClippedVertices> out);
 
+// Cuts a line at the same planes, with the same arithmetic. The result is its two ends, in order, with weights of the
+// first two corners only; false if nothing is left.
+bool clipLine(const glm::vec4 ends[2], const ClipLimits& limits, ClipVertex out[2]);
+
 }  // namespace relief

@@ -1,7 +1,7 @@
 // One draw, and the whole pipeline on one screen: start here.
 //
 //     vertices     shadeVertices   the vertex program, kLanes vertices at a time      -> clip space, screen
-//     triangles    setUpTriangles  clip, cull, snap to the pixel grid
+//     triangles    setUpTriangles  clip, cull, snap to the pixel grid (setUpLines: lines become thin triangles)
 //                  binTriangles    to the tiles that each one touches
 //     tile by tile rasterise       which pixels of which blocks are covered
 //                  shadeBlocks     depth test, interpolate, the fragment program, merge
@@ -11,6 +11,7 @@
 
 #include <span>
 
+#include "hlsl/signature.h"
 #include "lanes/active.h"
 #include "pipeline/interpolate.h"
 #include "pipeline/output_merger.h"
@@ -62,6 +63,9 @@ public:
     // memory, the program's own cost. Returns a sum of the results.
     virtual float shadeAlone(const CoveredBlock& block, const TriangleChunk& chunk, std::uint64_t times) const = 0;
 
+    // The vertex program's output, as hlsl/signature.h prints it.
+    virtual std::string outputSignature() const = 0;
+
     DrawGeometry geometry;
 };
 
@@ -79,6 +83,9 @@ public:
         : mesh(source), vertexProgram(vertex), fragmentProgram(fragment)
     {
         geometry.componentCount = kCount;
+        static_assert(state.lineWidth == 1 || state.lineWidth == 2, "lines are 1 or 2 pixels wide");
+        geometry.primitive = state.primitive;
+        geometry.lineWidth = state.lineWidth;
         geometry.cull = state.cull;
         geometry.depthClip = state.depthClip;
     }
@@ -130,6 +137,8 @@ public:
         }
         return sum.x[0] + sum.y[0] + sum.z[0] + sum.w[0];
     }
+
+    std::string outputSignature() const override { return signature<Interpolators>(); }
 
 private:
     void setCorners(CornerComponents<kCount>& corners, const Triangle& triangle, const TriangleChunk& chunk) const

@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "pipeline/line.h"
 #include "pipeline/setup.h"
 
 namespace relief {
 
 namespace {
 
-// A piece of front-end work: some vertices or triangles of one draw.
+// A piece of front-end work: some vertices or primitives of one draw.
 struct Piece
 {
     std::uint32_t draw, first, count;
@@ -148,7 +149,7 @@ void Frame::add(std::unique_ptr<Draw> draw, const Mesh& mesh)
     Storage& s = *storage;
     DrawGeometry& g = draw->geometry;
     g.indices = mesh.indices.data();
-    g.triangleCount = static_cast<std::uint32_t>(mesh.indices.size() / 3);
+    g.primitiveCount = static_cast<std::uint32_t>(mesh.indices.size() / (g.primitive == Primitive::lines ? 2 : 3));
     g.vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
     g.viewport = s.viewport;
     const Rectangle all = {0, 0, s.target.width(), s.target.height()};
@@ -157,8 +158,8 @@ void Frame::add(std::unique_ptr<Draw> draw, const Mesh& mesh)
     g.drawIndex = static_cast<std::uint32_t>(s.draws.size());
 
     // Nothing can be seen: no vertex is shaded.
-    if (g.bounds.x0 >= g.bounds.x1 || g.bounds.y0 >= g.bounds.y1 || g.vertexCount == 0) g.triangleCount = 0;
-    if (g.triangleCount == 0) g.vertexCount = 0;
+    if (g.bounds.x0 >= g.bounds.x1 || g.bounds.y0 >= g.bounds.y1 || g.vertexCount == 0) g.primitiveCount = 0;
+    if (g.primitiveCount == 0) g.vertexCount = 0;
     s.draws.push_back(std::move(draw));
 }
 
@@ -213,7 +214,7 @@ void Frame::Storage::setUpAndBin()
     std::vector<const DrawGeometry*> geometry;
     for (const auto& draw : draws) geometry.push_back(&draw->geometry);
 
-    const auto pieces = cut(draws, kTrianglesPerChunk, [](const DrawGeometry& g) { return g.triangleCount; });
+    const auto pieces = cut(draws, kTrianglesPerChunk, [](const DrawGeometry& g) { return g.primitiveCount; });
     usedChunks = pieces.size();
     if (chunks.size() < usedChunks) chunks.resize(usedChunks);
     workers.run(static_cast<int>(usedChunks), [&](int index, int worker) {
@@ -221,7 +222,8 @@ void Frame::Storage::setUpAndBin()
         Statistics& statistics = perWorker[static_cast<std::size_t>(worker)].statistics;
         chunk.clear();
         for (const Piece& piece : pieces[static_cast<std::size_t>(index)]) {
-            setUpTriangles(*geometry[piece.draw], piece.first, piece.count, chunk, statistics);
+            const bool lines = geometry[piece.draw]->primitive == Primitive::lines;
+            (lines ? setUpLines : setUpTriangles)(*geometry[piece.draw], piece.first, piece.count, chunk, statistics);
         }
         binTriangles(chunk, grid, geometry.data(), statistics);
     });
@@ -295,6 +297,11 @@ int Frame::drawCount() const
 int Frame::componentCount(int draw) const
 {
     return static_cast<int>(storage->draws[static_cast<std::size_t>(draw)]->geometry.componentCount);
+}
+
+std::string Frame::outputSignature(int draw) const
+{
+    return storage->draws[static_cast<std::size_t>(draw)]->outputSignature();
 }
 
 bool Frame::dependsOn(int draw, int component)

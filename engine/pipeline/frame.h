@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "mesh/mesh.h"
 #include "pipeline/bin.h"
@@ -47,6 +48,9 @@ public:
     // The recorded draws, and how many components (floats) each of them interpolates.
     int drawCount() const;
     int componentCount(int draw) const;
+
+    // What the draw's vertex program hands on, as the table that Direct3D's compiler prints (hlsl/signature.h).
+    std::string outputSignature(int draw) const;
 
     // Whether any pixel depends on an interpolated component: runs the frame again with NaN in it at every vertex.
     // After run(); the target holds the same picture afterwards.

@@ -81,8 +81,8 @@ enum : std::uint16_t
 // One draw's vertices and the state that the front end needs.
 struct DrawGeometry
 {
-    const std::uint32_t* indices = nullptr;  // three a triangle
-    std::uint32_t triangleCount = 0;
+    const std::uint32_t* indices = nullptr;  // three a triangle, two a line
+    std::uint32_t primitiveCount = 0;
     std::uint32_t vertexCount = 0;
     std::uint32_t componentCount = 0;  // floats to interpolate per vertex
 
@@ -93,6 +93,8 @@ struct DrawGeometry
 
     Viewport viewport;
     Rectangle bounds;  // viewport, scissor and target: no pixel outside is touched
+    Primitive primitive = Primitive::triangles;
+    int lineWidth = 1;  // pixels
     Cull cull = Cull::back;
     bool depthClip = true;
     std::uint32_t drawIndex = 0;

@@ -29,6 +29,13 @@ enum class Blend
     alpha
 };
 
+// What a mesh's indices are: three for a triangle, or two for a line (see line.h).
+enum class Primitive
+{
+    triangles,
+    lines
+};
+
 struct RenderState
 {
     Compare depthTest = Compare::less;  // `greater` with a depth cleared to 0 is reversed depth
@@ -36,6 +43,8 @@ struct RenderState
     bool depthClip = true;  // false: z beyond near and far is clamped instead of clipped
     Cull cull = Cull::back;
     Blend blend = Blend::off;
+    Primitive primitive = Primitive::triangles;
+    int lineWidth = 1;  // pixels: 1 or 2
 };
 
 }  // namespace relief

@@ -14,7 +14,7 @@ struct Statistics
     std::uint64_t verticesShaded = 0;
 
     // submitted = culled + outside + droppedNan + droppedInfinite + droppedIndex + rasterised
-    std::uint64_t trianglesSubmitted = 0;
+    std::uint64_t trianglesSubmitted = 0;  // and lines, each counted once
     std::uint64_t culledFacing = 0;     // by orientation, or of zero area after snapping
     std::uint64_t culledNoSample = 0;   // no pixel centre inside their bounds, or outside the scissor
     std::uint64_t outside = 0;          // wholly beyond a plane of the view volume, or clipped to nothing

@@ -1,6 +1,6 @@
 // Unity's metallic workflow and its physically based lighting model, as the tutorials call them: GGX specular, Disney
-// diffuse, Schlick's Fresnel. Formulae of Unity's built-in shaders (UnityStandardBRDF.cginc, MIT), with the epsilons
-// that they have: the tutorial-faithful form. All colours are linear; directions are unit vectors.
+// diffuse, Schlick's Fresnel. Formulae of Unity's built-in shaders (UnityStandardBRDF.cginc, MIT) in two forms: the
+// tutorials' own, and an exact one. All colours are linear; directions are unit vectors.
 #pragma once
 
 #include "hlsl/intrinsics.h"
@@ -22,12 +22,13 @@ inline constexpr float kDielectricSpecular = 0.04f;
 inline constexpr float unity_ColorSpaceDouble = 4.59479380f;
 
 // Splits a material's colour between diffuse and specular, so that the two together never reflect more than arrives.
-// Returns the diffuse colour. metallic is 0 ... 1.
+// Returns the diffuse colour. metallic is clamped to 0 ... 1.
 inline float3 DiffuseAndSpecularFromMetallic(const float3& albedo, Float metallic, float3& specColor,
                                              Float& oneMinusReflectivity)
 {
-    specColor = lerp(float3(kDielectricSpecular), albedo, metallic);
-    oneMinusReflectivity = (1.0f - kDielectricSpecular) * (1.0f - metallic);
+    const Float metal = saturate(metallic);
+    specColor = lerp(float3(kDielectricSpecular), albedo, metal);
+    oneMinusReflectivity = (1.0f - kDielectricSpecular) * (1.0f - metal);
     return albedo * oneMinusReflectivity;
 }
 
@@ -37,25 +38,49 @@ inline Float Pow5(Float x)
     return square * square * x;
 }
 
+// Light that comes from everywhere: what the surroundings send, and what a mirror would show of them.
+struct UnityIndirect
+{
+    float3 diffuse, specular;
+};
+
+namespace detail {
+
+// The angles of one light that both forms of the model need.
+struct LightingAngles
+{
+    Float NdotL, NdotV, NdotH, LdotH;
+};
+
+// Disney's diffuse model, without its 1 / pi.
+inline Float disneyDiffuse(const LightingAngles& angles, Float perceptualRoughness)
+{
+    const Float fd90 = 0.5f + 2.0f * angles.LdotH * angles.LdotH * perceptualRoughness;
+    const Float lightScatter = 1.0f + (fd90 - 1.0f) * Pow5(1.0f - angles.NdotL);
+    const Float viewScatter = 1.0f + (fd90 - 1.0f) * Pow5(1.0f - angles.NdotV);
+    return lightScatter * viewScatter * angles.NdotL;
+}
+
+// Schlick's approximation of Fresnel's reflectance.
+inline float3 fresnel(const float3& specColor, Float LdotH)
+{
+    return specColor + (1.0f - specColor) * Pow5(1.0f - LdotH);
+}
+
+}  // namespace detail
+
 // Unity's BRDF1 for one light: what the surface sends to the viewer. smoothness is 0 ... 1; viewDir points to the
-// viewer.
+// viewer. This is the tutorial-faithful form, epsilons included. The 1e-7 in D is not harmless: above smoothness 0.8 it
+// cuts the highlight's peak, to a factor of 0.091 at 0.9 and 0.00016 at 1. UNITY_BRDF_PBS_Exact has none.
 inline float4 UNITY_BRDF_PBS(const float3& diffColor, const float3& specColor, Float smoothness, const float3& normal,
                              const float3& viewDir, const UnityLight& light)
 {
     const Float perceptualRoughness = 1.0f - saturate(smoothness);
     const float3 sum = light.dir + viewDir;
     const float3 halfDir = sum * (1.0f / sqrt(max(Float(0.001f), dot(sum, sum))));
-
-    const Float NdotV = abs(dot(normal, viewDir));
-    const Float NdotL = saturate(dot(normal, light.dir));
-    const Float NdotH = saturate(dot(normal, halfDir));
-    const Float LdotH = saturate(dot(light.dir, halfDir));
-
-    // Diffuse: Disney's model without its 1 / pi.
-    const Float fd90 = 0.5f + 2.0f * LdotH * LdotH * perceptualRoughness;
-    const Float lightScatter = 1.0f + (fd90 - 1.0f) * Pow5(1.0f - NdotL);
-    const Float viewScatter = 1.0f + (fd90 - 1.0f) * Pow5(1.0f - NdotV);
-    const Float diffuseTerm = lightScatter * viewScatter * NdotL;
+    const detail::LightingAngles angles = {saturate(dot(normal, light.dir)), abs(dot(normal, viewDir)),
+                                           saturate(dot(normal, halfDir)), saturate(dot(light.dir, halfDir))};
+    const auto& [NdotL, NdotV, NdotH, LdotH] = angles;
 
     // Specular: V D F, with the approximate Smith visibility that needs no square root.
     const Float roughness = max(perceptualRoughness * perceptualRoughness, Float(0.002f));
@@ -66,10 +91,49 @@ inline float4 UNITY_BRDF_PBS(const float3& diffColor, const float3& specColor, F
     const Float d = (NdotH * a2 - NdotH) * NdotH + 1.0f;
     const Float D = a2 / (3.14159265f * (d * d + 1e-7f));
     const Float specularTerm = max(Float(0.0f), V * D * 3.14159265f * NdotL);
-    const float3 F = specColor + (1.0f - specColor) * Pow5(1.0f - LdotH);
 
-    const float3 color = (diffColor * diffuseTerm + F * specularTerm) * light.color;
-    return float4(color, 1.0f);
+    const float3 diffuse = diffColor * detail::disneyDiffuse(angles, perceptualRoughness);
+    return float4((diffuse + detail::fresnel(specColor, LdotH) * specularTerm) * light.color, 1.0f);
+}
+
+// The same model without epsilons: the half vector is normalised, Smith's joint visibility has its square roots, and
+// D = a^2 / (pi d^2) with d = a^2 + (1 - a^2) |N x H|^2. That sum cannot cancel, where 1 - (N.H)^2 loses all its digits
+// at the peak. No epsilon is needed: a >= 0.002 keeps d >= 4e-6.
+inline float4 UNITY_BRDF_PBS_Exact(const float3& diffColor, const float3& specColor, Float smoothness,
+                                   const float3& normal, const float3& viewDir, const UnityLight& light)
+{
+    const Float perceptualRoughness = 1.0f - saturate(smoothness);
+    const float3 halfDir = normalize(light.dir + viewDir);
+    const detail::LightingAngles angles = {saturate(dot(normal, light.dir)), saturate(abs(dot(normal, viewDir))),
+                                           saturate(dot(normal, halfDir)), saturate(dot(light.dir, halfDir))};
+    const auto& [NdotL, NdotV, NdotH, LdotH] = angles;
+
+    const Float roughness = max(perceptualRoughness * perceptualRoughness, Float(0.002f));
+    const Float a2 = roughness * roughness;
+    const Float lambdaV = NdotL * sqrt(NdotV * NdotV * (1.0f - a2) + a2);
+    const Float lambdaL = NdotV * sqrt(NdotL * NdotL * (1.0f - a2) + a2);
+    const Float V = 0.5f / (lambdaV + lambdaL);
+    const float3 sine = cross(normal, halfDir);
+    const Float d = a2 + (1.0f - a2) * min(dot(sine, sine), Float(1.0f));
+    const Float D = select(NdotH > 0.0f, a2 / (3.14159265f * d * d), Float(0.0f));
+    // Unlit is 0, also where V is 0.5 / 0.
+    const Float specularTerm = select(NdotL > 0.0f, V * D * 3.14159265f * NdotL, Float(0.0f));
+
+    const float3 diffuse = diffColor * detail::disneyDiffuse(angles, perceptualRoughness);
+    return float4((diffuse + detail::fresnel(specColor, LdotH) * specularTerm) * light.color, 1.0f);
+}
+
+// What BRDF1 adds for indirect light: once, in the base pass.
+inline float3 UNITY_BRDF_Indirect(const float3& diffColor, const float3& specColor, Float oneMinusReflectivity,
+                                  Float smoothness, const float3& normal, const float3& viewDir,
+                                  const UnityIndirect& indirect)
+{
+    const Float perceptualRoughness = 1.0f - saturate(smoothness);
+    const Float roughness = max(perceptualRoughness * perceptualRoughness, Float(0.002f));
+    const Float surfaceReduction = 1.0f / (roughness * roughness + 1.0f);
+    const Float grazingTerm = saturate(saturate(smoothness) + (1.0f - oneMinusReflectivity));
+    const float3 F = lerp(specColor, float3(grazingTerm), Pow5(1.0f - saturate(abs(dot(normal, viewDir)))));
+    return diffColor * indirect.diffuse + indirect.specular * F * surfaceReduction;
 }
 
 }  // namespace relief

@@ -13,27 +13,47 @@ struct ObjectTransform
     float4x4 worldFromObject;
     float3x3 normalFromObject;  // sign(det M) * cofactor(M) of the upper 3x3 of worldFromObject
 
+    // Unity's: w is -1 for a mirrored object (an odd number of negative scales), and 1 otherwise. Nothing else is used.
+    float4 unity_WorldTransformParams;
+
     ObjectTransform() = default;
     ObjectTransform(const glm::mat4& clipFromWorld, const glm::mat4& worldFromObject);
 };
+
+namespace detail {
+
+inline glm::vec3 crossed(const glm::vec3& a, const glm::vec3& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline float determinantSign(const glm::mat3& m)
+{
+    const glm::vec3 c = crossed(m[1], m[2]);
+    return m[0].x * c.x + m[0].y * c.y + m[0].z * c.z < 0.0f ? -1.0f : 1.0f;
+}
+
+}  // namespace detail
+
+// -1 for a matrix that mirrors (a negative determinant), 1 for any other: unity_WorldTransformParams.w.
+inline float mirrorSign(const glm::mat4& m)
+{
+    return detail::determinantSign(glm::mat3(m));
+}
 
 // The cofactor matrix of m times the sign of its determinant (+1 where that is 0). Its columns are cross products of
 // m's columns: it equals |det m| * transpose(inverse(m)) wherever the inverse exists.
 inline glm::mat3 normalMatrix(const glm::mat3& m)
 {
-    const auto crossed = [](const glm::vec3& a, const glm::vec3& b) {
-        return glm::vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-    };
-    const glm::vec3 c0 = crossed(m[1], m[2]);
-    const float determinant = m[0].x * c0.x + m[0].y * c0.y + m[0].z * c0.z;
-    const float sign = determinant < 0.0f ? -1.0f : 1.0f;
-    return {c0 * sign, crossed(m[2], m[0]) * sign, crossed(m[0], m[1]) * sign};
+    const float sign = detail::determinantSign(m);
+    return {detail::crossed(m[1], m[2]) * sign, detail::crossed(m[2], m[0]) * sign, detail::crossed(m[0], m[1]) * sign};
 }
 
 inline ObjectTransform::ObjectTransform(const glm::mat4& clipFromWorld, const glm::mat4& world)
     : clipFromObject(broadcast(clipFromWorld * world)),
       worldFromObject(broadcast(world)),
-      normalFromObject(broadcast(normalMatrix(glm::mat3(world))))
+      normalFromObject(broadcast(normalMatrix(glm::mat3(world)))),
+      unity_WorldTransformParams(0.0f, 0.0f, 0.0f, mirrorSign(world))
 {
 }
 
