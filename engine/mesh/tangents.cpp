@@ -63,7 +63,7 @@ struct Triangle
 {
     glm::vec3 alongU{0}, alongV{0};  // of unit length, or zero
     bool isDegenerate = false;       // two corners at one position
-    bool joinsAny = false;           // no area in the picture
+    bool joinsAny = false;           // no area in the picture, or no direction of u or v
     bool keepsOrientation = false;   // the uvs turn like the corners
 };
 

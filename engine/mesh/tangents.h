@@ -19,7 +19,7 @@ namespace relief {
 //   whose uvs run the same way. A corner's tangent is the sum over its group of the directions of +u, each made
 //   perpendicular to the normal and weighted by the angle at the vertex; without those that are exactly opposite to its
 //   own (an angular threshold of 180 degrees, MikkTSpace's default).
-// - Triangles without area in the picture join any group and add nothing to it.
+// - Triangles without area in the picture, or on which u or v has no direction, join any group and add nothing to it.
 // - Triangles with two corners at the same position join none; each of their corners copies the first corner of another
 //   triangle at the same vertex.
 // - A corner that is still without a tangent, or whose sum has no direction, gets a unit vector perpendicular to the
