@@ -1,5 +1,5 @@
-// exp2, log2, pow, sin and cos: the largest error over all mantissas stays below what lanes/math.h promises, values
-// join where one piece of the computation gives way to the next, and the bits are the same in every build.
+// exp2, log2, pow, sin, cos and atan2: the largest error over all mantissas stays below what lanes/math.h promises,
+// values join where one piece of the computation gives way to the next, and the bits are the same in every build.
 // RELIEF_SHORT_TESTS (slow builds) looks at every seventeenth number only.
 #include "lanes/math.h"
 
@@ -432,6 +432,95 @@ TEST_CASE("sin and cos: special values")
     CHECK_FALSE(std::isnan(cos(-1e6f)));
 }
 
+// --- atan2 ---
+
+TEST_CASE("atan2: the relative error of all eight octants, over all mantissas, is below 1.2e-7")
+{
+    for (const float longer : {1.0f, -1.0f}) {
+        for (const float sign : {1.0f, -1.0f}) {
+            Error error;
+            for (const Floats& octave : {Floats(0x1p-20f, 0x1.1p-20f), Floats(0x1p-3f, 0x1p-2f), Floats(0x1p-2f, 0.5f),
+                                         Floats(0.5f, std::nextafter(1.0f, 2.0f))}) {
+                evaluate(
+                    octave, [&](Float r) { return atan2(r * sign, longer); },
+                    [&](float r, float angle) { error.addRelative(r, angle, std::atan2(double{r * sign}, longer)); });
+                evaluate(
+                    octave, [&](Float r) { return atan2(longer, r * sign); },
+                    [&](float r, float angle) { error.addRelative(r, angle, std::atan2(longer, double{r * sign})); });
+            }
+            CAPTURE(longer);
+            CAPTURE(sign);
+            CAPTURE(error.at);
+            CHECK(error.largest < 1.2e-7);
+        }
+    }
+}
+
+TEST_CASE("atan2: the absolute error all around the circle is below 2.1e-7, for lengths of every size")
+{
+    for (const float length : {1.0f, 0.3f, 1e-30f, 1e-37f, 1e30f, 3e38f}) {
+        Error error;
+        const std::uint32_t count = 200000 / kStride;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const double turn = 2.0 * std::numbers::pi * i / count;
+            const auto x = static_cast<float>(length * std::cos(turn));
+            const auto y = static_cast<float>(length * std::sin(turn));
+            error.addAbsolute(static_cast<float>(turn), atan2(y, x), std::atan2(double{y}, double{x}));
+        }
+        CAPTURE(length);
+        CAPTURE(error.at);
+        CHECK(error.largest < 2.1e-7);
+    }
+}
+
+TEST_CASE("atan2: axes and diagonals give the nearest floats, for lengths of every size and for infinities")
+{
+    constexpr auto kPi = static_cast<float>(std::numbers::pi);
+    constexpr auto kHalfPi = static_cast<float>(std::numbers::pi / 2.0);
+    constexpr auto kQuarterPi = static_cast<float>(std::numbers::pi / 4.0);
+    constexpr auto kThreeQuarterPi = static_cast<float>(std::numbers::pi * 0.75);
+    for (const float a : {kSmallest, 1e-40f, 1e-20f, 1.0f, 3.0f, kLargest, kInfinity}) {
+        CAPTURE(a);
+        for (const float zero : {0.0f, -0.0f}) {
+            CHECK(atan2(a, zero) == kHalfPi);
+            CHECK(atan2(-a, zero) == -kHalfPi);
+            CHECK(same(atan2(zero, a), zero));
+            CHECK(atan2(zero, -a) == std::copysign(kPi, zero));
+        }
+        CHECK(atan2(a, a) == kQuarterPi);
+        CHECK(atan2(-a, a) == -kQuarterPi);
+        CHECK(atan2(a, -a) == kThreeQuarterPi);
+        CHECK(atan2(-a, -a) == -kThreeQuarterPi);
+    }
+    CHECK(same(atan2(0.0f, 0.0f), 0.0f));
+    CHECK(same(atan2(-0.0f, 0.0f), -0.0f));
+    CHECK(atan2(0.0f, -0.0f) == kPi);
+    CHECK(atan2(-0.0f, -0.0f) == -kPi);
+    CHECK(atan2(kInfinity, 1.0f) == kHalfPi);
+    CHECK(atan2(1.0f, kInfinity) == 0.0f);
+    CHECK(atan2(-1.0f, -kInfinity) == -kPi);
+}
+
+TEST_CASE("atan2: of NaN is NaN")
+{
+    for (const float a : {0.0f, 1.0f, -1.0f, kInfinity, kNan}) {
+        CHECK(std::isnan(atan2(kNan, a)));
+        CHECK(std::isnan(atan2(a, kNan)));
+    }
+}
+
+TEST_CASE("atan2: rises by at most one unit in the last place too little, all around the circle")
+{
+    Falls falls;
+    for (const float x : {1.0f, -1.0f}) {
+        falls = {};
+        evaluate(
+            Range(0.25, 4.0, 2000000 / kStride), [x](Float y) { return atan2(y, x); },
+            [&](float, float angle) { falls.add(x * angle); });
+        CHECK(falls.deepest <= 1);
+    }
+}
+
 // --- the same bits everywhere ---
 
 TEST_CASE("the functions of one number give the bits of the lanes")
@@ -441,6 +530,7 @@ TEST_CASE("the functions of one number give the bits of the lanes")
     CHECK(difference(kFloats, kSin, [](float x) { return sin(x); }) == "");
     CHECK(difference(kFloats, kCos, [](float x) { return cos(x); }) == "");
     CHECK(differenceOfPairs(kFloats, [](auto x, auto y) { return pow(x, y); }) == "");
+    CHECK(differenceOfPairs(kFloats, [](auto x, auto y) { return atan2(x, y); }) == "");
 }
 
 TEST_CASE("the results have the bits that they have in every other build")
@@ -459,4 +549,16 @@ TEST_CASE("the results have the bits that they have in every other build")
             List{inputs}, [y](Float x) { return pow(x, y); }, add);
     }
     CHECK(hash.value == 0x22b2c074169dc609u);
+}
+
+TEST_CASE("atan2 has the bits that it has in every other build")
+{
+    const std::vector<float> inputs = manyFloats();
+    Fnv1a hash;
+    for (const float x : {1.0f, -1.0f, 0.0f, -0.0f, 0.3f, -1e20f, 1e-40f, kInfinity}) {
+        evaluate(
+            List{inputs}, [x](Float y) { return atan2(y, x); },
+            [&](float, float y) { hash.add(std::isnan(y) ? 0x7fc00000u : std::bit_cast<std::uint32_t>(y)); });
+    }
+    CHECK(hash.value == 0x3c48e9b222a2615au);
 }
