@@ -1,4 +1,4 @@
-// From pixels in a file's order to texels in memory.
+// From pixels in a file's order to texels in memory, and the sRGB curve in tables.
 #include "texture/pixels.h"
 
 #include <algorithm>
@@ -23,17 +23,6 @@ MipLevel importPixels(TexelFormat format, int width, int height, const Source* r
 }
 
 constexpr auto kCopyTexel = [](const auto* from, auto* to) { std::copy_n(from, 4, to); };
-
-// 16-bit decoding takes a fifth root per number, so every code is decoded once per process.
-std::uint16_t decodeCode16(std::uint16_t code)
-{
-    static const std::vector<std::uint16_t> table = [] {
-        std::vector<std::uint16_t> decoded(65536);
-        for (std::size_t i = 0; i < decoded.size(); ++i) decoded[i] = srgbToLinear16(static_cast<std::uint16_t>(i));
-        return decoded;
-    }();
-    return table[code];
-}
 
 }  // namespace
 
@@ -83,7 +72,7 @@ MipLevel levelFromRgba16(int width, int height, std::span<const std::uint16_t> r
         return importPixels<std::uint16_t>(TexelFormat::rgba16, width, height, rgba.data(), kCopyTexel);
     }
     const auto decode = [](const std::uint16_t* from, std::uint16_t* to) {
-        for (int c = 0; c < 3; ++c) to[c] = decodeCode16(from[c]);
+        for (int c = 0; c < 3; ++c) to[c] = decodeSrgb16(from[c]);
         to[3] = from[3];
     };
     return importPixels<std::uint16_t>(TexelFormat::rgba16, width, height, rgba.data(), decode);
@@ -104,6 +93,30 @@ MipLevel levelFromPicture(const ImageFile& picture, ColorSpace meaning)
     }
     const auto& image = std::get<ImageFloat>(picture);
     return levelFromRgbaFloat(image.width, image.height, image.pixels);
+}
+
+// Decoding takes a fifth root per number, so every code is decoded once per process.
+std::uint16_t decodeSrgb16(std::uint16_t code)
+{
+    static const std::vector<std::uint16_t> table = [] {
+        std::vector<std::uint16_t> decoded(65536);
+        for (std::size_t i = 0; i < decoded.size(); ++i) decoded[i] = srgbToLinear16(static_cast<std::uint16_t>(i));
+        return decoded;
+    }();
+    return table[code];
+}
+
+std::uint16_t encodeSrgb16(std::uint16_t linear)
+{
+    static const std::vector<std::uint16_t> table = [] {
+        std::vector<std::uint16_t> encoded(65536);
+        for (std::size_t i = 0; i < encoded.size(); ++i) {
+            const float code = linearToSrgb(Float(static_cast<float>(i) / 65535.0f))[0];
+            encoded[i] = static_cast<std::uint16_t>(code * 65535.0f + 0.5f);
+        }
+        return encoded;
+    }();
+    return table[linear];
 }
 
 }  // namespace relief

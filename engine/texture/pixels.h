@@ -29,4 +29,8 @@ MipLevel levelFromRgba16(int width, int height, std::span<const std::uint16_t> r
 MipLevel levelFromRgbaFloat(int width, int height, std::span<const float> rgba);
 MipLevel levelFromPicture(const ImageFile& picture, ColorSpace meaning);
 
+// 16-bit linear light to the 16-bit sRGB code and back, from tables: linearToSrgb and srgbToLinear16 (color_space.h).
+std::uint16_t encodeSrgb16(std::uint16_t linear);
+std::uint16_t decodeSrgb16(std::uint16_t code);
+
 }  // namespace relief
