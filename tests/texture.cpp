@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -243,6 +244,55 @@ TEST_CASE("texture: levels are built when asked for, with those between, and sur
     CHECK(moved.levelsBuilt() == 4);
     CHECK(moved.level(6).width() == 1);
     CHECK(moved.levelsBuilt() == 7);
+}
+
+TEST_CASE("texture: levels that somebody makes are made when asked for, in order, once each")
+{
+    std::vector<int> made;
+    const auto make = [&made](int k, const MipLevel* finer) {
+        made.push_back(k);
+        CHECK((finer == nullptr) == (k == 0));
+        MipLevel level(TexelFormat::rgba8, std::max(8 >> k, 1), std::max(4 >> k, 1));
+        level.texel<std::uint8_t>(0, 0)[0] = static_cast<std::uint8_t>(10 + k);
+        return level;
+    };
+    const Texture texture = *Texture::fromLevels(TexelFormat::rgba8, 8, 4, make);
+    CHECK(texture.levelCount() == 4);
+    CHECK(texture.levelsBuilt() == 0);
+    CHECK(made.empty());
+    CHECK(texture.texelSize() == glm::vec4(1.0f / 8.0f, 1.0f / 4.0f, 8.0f, 4.0f));
+    CHECK(texture.level(2).texel<std::uint8_t>(0, 0)[0] == 12);
+    CHECK(made == std::vector{0, 1, 2});
+    CHECK(texture.texel(0, 0).x == 10.0f / 255.0f);
+    CHECK(texture.level(3).texel<std::uint8_t>(0, 0)[0] == 13);
+    CHECK(made == std::vector{0, 1, 2, 3});
+
+    CHECK(!Texture::fromLevels(TexelFormat::rgba8, 0, 4, make));
+    CHECK(!Texture::fromLevels(TexelFormat::rgba8, 4, 16385, make));
+}
+
+TEST_CASE("texture: what makes levels is dropped with the last of them, and one texel is made at once")
+{
+    const auto held = std::make_shared<int>(0);
+    const auto make = [held](int, const MipLevel* finer) {
+        return finer ? coarserLevel(TexelFormat::rgba16, *finer) : MipLevel(TexelFormat::rgba16, 4, 1);
+    };
+    const long mine = held.use_count();
+    const Texture texture = *Texture::fromLevels(TexelFormat::rgba16, 4, 1, make);
+    texture.level(1);
+    CHECK(held.use_count() == mine + 1);
+    texture.level(2);
+    CHECK(held.use_count() == mine);
+
+    const Texture one = *Texture::fromLevels(TexelFormat::rgba8, 1, 1, [](int, const MipLevel*) {
+        MipLevel level(TexelFormat::rgba8, 1, 1);
+        level.texel<std::uint8_t>(0, 0)[1] = 255;
+        level.fillFrame();
+        return level;
+    });
+    CHECK(one.isConstant());
+    CHECK(one.levelsBuilt() == 1);
+    CHECK(one.constant() == glm::vec4(0.0f, 1.0f, 0.0f, 0.0f));
 }
 
 #if !defined(RELIEF_NO_THREADS)

@@ -1,6 +1,8 @@
-// The one place where stb_image and stb_image_write are compiled; everybody else includes their declarations only.
+// The one place where stb_image, stb_image_write and stb_dxt are compiled; everybody else includes their declarations
+// only.
 // No SIMD: one decoder on every machine. Zeroed memory: a damaged file gives the same pixels on every machine.
 #include <cstdlib>
+#include <cstring>
 
 #define STBI_NO_STDIO
 #define STBI_NO_SIMD
@@ -29,6 +31,8 @@
 #include <stb/stb_image.h>
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
+#define STB_DXT_IMPLEMENTATION
+#include <stb/stb_dxt.h>
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -37,6 +38,14 @@ public:
     // coarser levels, and nowhere else.
     static Expected<Texture> fromRgbaFloat(int width, int height, std::span<const float> rgba);
 
+    // From levels that somebody makes when they are first asked for, level 0 included. `make` is called once per level,
+    // in order from 0, by one thread at a time; it gets the level's number and the level before (null for level 0), and
+    // returns one of `format`, frame filled, with sides width, height or nextSide() of those before. It is dropped with
+    // all it holds after the last level. A texture of one texel is made at once. An error when a side is not in
+    // 1..kMaxTextureSide.
+    using MakeLevel = std::function<MipLevel(int level, const MipLevel* finer)>;
+    static Expected<Texture> fromLevels(TexelFormat format, int width, int height, MakeLevel make);
+
     // One texel of a constant: what a material samples that has no texture of its own.
     static const Texture& white();       // (1, 1, 1, 1)
     static const Texture& grey();        // sRGB code 128 in linear light, (0.2158, 0.2158, 0.2158, 1)
@@ -54,7 +63,7 @@ public:
     // A texel of level 0 as a fetch gives it, x = 0..width - 1 from the left, y = 0..height - 1 from below.
     glm::vec4 texel(int x, int y) const;
 
-    // A texture of one texel is the same everywhere: this is texel(0, 0).
+    // A texture of one texel is the same everywhere: constant() is texel(0, 0), and nothing for other textures.
     bool isConstant() const { return levels == 1; }
     const glm::vec4& constant() const { return firstTexel; }
 
@@ -66,7 +75,8 @@ public:
         return built ? *built : buildLevel(k);
     }
 
-    // How many levels exist in memory by now; 1 for a texture that was only ever magnified.
+    // How many levels exist in memory by now: 1 for a texture that was only ever magnified, 0 for one from fromLevels
+    // that was never sampled.
     int levelsBuilt() const;
 
 private:
@@ -75,10 +85,12 @@ private:
     {
         std::array<std::atomic<const MipLevel*>, kMaxMipLevels> published{};
         std::array<std::optional<MipLevel>, kMaxMipLevels> levels;  // written under the mutex, once each
+        MakeLevel make;
         std::mutex building;
     };
 
-    Texture(TexelFormat format, MipLevel finest);
+    Texture(TexelFormat format, int width, int height, MakeLevel make);
+    Texture(TexelFormat format, MipLevel finest);  // coarser levels by coarserLevel()
     const MipLevel& buildLevel(int k) const;
 
     std::unique_ptr<Chain> chain;
