@@ -24,7 +24,12 @@ inline std::filesystem::path hashesPath()
 
 inline Expected<Framebuffer> renderForGolden(const Stage& stage, ColorFormat format, const FrameOptions& options = {})
 {
-    const Expected<PreparedStage> prepared = PreparedStage::prepare(stage);
+    // A golden is of one variant, whatever the CMake option BINORMAL_PER_FRAGMENT says.
+    std::vector<std::string> settings;
+    for (const Property& p : stage.properties) {
+        if (p.name == "binormalPerFragment" && p.value.x < 2.0f) settings.push_back("binormalPerFragment=0");
+    }
+    const Expected<PreparedStage> prepared = PreparedStage::prepare(stage, settings);
     if (!prepared) return tl::unexpected(prepared.error());
     Expected<Framebuffer> target =
         Framebuffer::create(kGoldenWidth, kGoldenHeight, format,

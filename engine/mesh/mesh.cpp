@@ -79,4 +79,11 @@ void computeNormals(Mesh& mesh)
     }
 }
 
+Mesh withMirroredUv(Mesh mesh)
+{
+    for (glm::vec2& uv : mesh.uvs) uv.x = 1.0f - uv.x;
+    for (glm::vec4& tangent : mesh.tangents) tangent = -tangent;
+    return mesh;
+}
+
 }  // namespace relief

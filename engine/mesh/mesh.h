@@ -35,4 +35,7 @@ Expected<void> validate(const Mesh& mesh);
 // must be valid.
 void computeNormals(Mesh& mesh);
 
+// The same shape with its picture mirrored: u becomes 1 - u, tangents turn round, and so does their handedness sign.
+Mesh withMirroredUv(Mesh mesh);
+
 }  // namespace relief

@@ -78,6 +78,7 @@ struct Frame::Storage
         clearDepth = 1.0f;
         viewport = {0, 0, target.width(), target.height()};
         scissor = {0, 0, target.width(), target.height()};
+        frontCounterClockwise = false;
     }
 
     void shadeVertices();
@@ -104,6 +105,7 @@ struct Frame::Storage
     float clearDepth = 1.0f;
     Viewport viewport;
     Rectangle scissor;
+    bool frontCounterClockwise = false;
 
     // A component of a draw that is to be NaN at every vertex.
     struct Poison
@@ -144,6 +146,11 @@ void Frame::setScissor(const Rectangle& scissor)
     storage->scissor = scissor;
 }
 
+void Frame::setFrontCounterClockwise(bool counterClockwise)
+{
+    storage->frontCounterClockwise = counterClockwise;
+}
+
 void Frame::add(std::unique_ptr<Draw> draw, const Mesh& mesh)
 {
     Storage& s = *storage;
@@ -155,6 +162,7 @@ void Frame::add(std::unique_ptr<Draw> draw, const Mesh& mesh)
     const Rectangle all = {0, 0, s.target.width(), s.target.height()};
     const Viewport& v = s.viewport;
     g.bounds = intersect(intersect(all, s.scissor), {v.x, v.y, v.x + v.width, v.y + v.height});
+    if (s.frontCounterClockwise && g.cull != Cull::none) g.cull = g.cull == Cull::back ? Cull::front : Cull::back;
     g.drawIndex = static_cast<std::uint32_t>(s.draws.size());
 
     // Nothing can be seen: no vertex is shaded.

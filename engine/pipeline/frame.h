@@ -37,6 +37,10 @@ public:
     void setViewport(const Viewport& viewport);
     void setScissor(const Rectangle& scissor);
 
+    // Whether the next draws' front faces are counter-clockwise on screen: right for an object whose matrix mirrors it.
+    // false by default.
+    void setFrontCounterClockwise(bool counterClockwise);
+
     // Records a draw. The programs are copied; the mesh and the textures must live until run() returns.
     // VertexData is found from the vertex program's parameter.
     template <RenderState state = RenderState{}, class VertexProgram, class FragmentProgram>

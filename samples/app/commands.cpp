@@ -1,7 +1,9 @@
 #include "commands.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -45,6 +47,15 @@ Expected<Size> parseSize(const std::string& text)
     return size;
 }
 
+Expected<PreparedStage> prepare(const RenderOptions& options)
+{
+    const Expected<const Stage*> stage = findStage(options.stage);
+    if (!stage) return tl::unexpected(stage.error());
+    Expected<PreparedStage> prepared = PreparedStage::prepare(**stage, options.settings, options.files);
+    if (prepared && options.showTangents) prepared->tangentLines = {options.tangentOffset, options.tangentScale};
+    return prepared;
+}
+
 Expected<void> list(bool json)
 {
     if (json) {
@@ -78,13 +89,11 @@ Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int thr
 
 Expected<void> render(const RenderOptions& options, const std::string& output)
 {
-    const Expected<const Stage*> stage = findStage(options.stage);
-    if (!stage) return tl::unexpected(stage.error());
     const Expected<Size> size = parseSize(options.size);
     if (!size) return tl::unexpected(size.error());
-    const Expected<PreparedStage> prepared = PreparedStage::prepare(**stage, options.settings, options.files);
+    const Expected<PreparedStage> prepared = prepare(options);
     if (!prepared) return tl::unexpected(prepared.error());
-    const std::string path = output.empty() ? (*stage)->stem + ".png" : output;
+    const std::string path = output.empty() ? prepared->stage->stem + ".png" : output;
     const Expected<Statistics> done = renderToFile(*prepared, *size, options.threads, path);
     if (!done) return tl::unexpected(done.error());
     std::printf("%s\n", path.c_str());
@@ -93,11 +102,9 @@ Expected<void> render(const RenderOptions& options, const std::string& output)
 
 Expected<void> hash(const RenderOptions& options, int tileSize)
 {
-    const Expected<const Stage*> stage = findStage(options.stage);
-    if (!stage) return tl::unexpected(stage.error());
     const Expected<Size> size = parseSize(options.size);
     if (!size) return tl::unexpected(size.error());
-    const Expected<PreparedStage> prepared = PreparedStage::prepare(**stage, options.settings, options.files);
+    const Expected<PreparedStage> prepared = prepare(options);
     if (!prepared) return tl::unexpected(prepared.error());
     Expected<Framebuffer> target =
         Framebuffer::create(size->width, size->height, ColorFormat::rgba32f, DepthStorage::keep);
@@ -105,7 +112,38 @@ Expected<void> hash(const RenderOptions& options, int tileSize)
     Frame frame(*target, {.threads = options.threads, .tileSize = tileSize});
     prepared->record(frame, size->width, size->height);
     frame.run();
-    std::printf("%s  %s\n", hexadecimal(hashOf(*target)).c_str(), (*stage)->stem.c_str());
+    std::printf("%s  %s\n", hexadecimal(hashOf(*target)).c_str(), prepared->stage->stem.c_str());
+    return {};
+}
+
+// Every signature once, in the order of the draws.
+Expected<void> signature(const RenderOptions& options, const std::string& binormal)
+{
+    RenderOptions chosen = options;
+    const bool perFragment = binormal.empty() ? kBinormalPerFragment : binormal == "fragment";
+    const Expected<const Stage*> stage = findStage(options.stage);
+    if (!stage) return tl::unexpected(stage.error());
+    const std::vector<Property>& all = (*stage)->properties;
+    const bool hasVariants =
+        std::any_of(all.begin(), all.end(), [](const Property& p) { return p.name == "binormalPerFragment"; });
+    if (!binormal.empty() && !hasVariants) {
+        return fail("--binormal " + binormal + ": stage " + (*stage)->id +
+                    " has one variant only; use it with 1.24 or 1.25, or leave it out");
+    }
+    if (hasVariants)
+        chosen.settings.insert(chosen.settings.begin(),
+                               perFragment ? "binormalPerFragment=1" : "binormalPerFragment=0");
+    const Expected<PreparedStage> prepared = prepare(chosen);
+    if (!prepared) return tl::unexpected(prepared.error());
+    Expected<Framebuffer> target = Framebuffer::create(16, 16);
+    if (!target) return tl::unexpected(target.error());
+    Frame frame(*target, {.threads = 1});
+    prepared->record(frame, 16, 16);
+    std::set<std::string> printed;
+    for (int draw = 0; draw < frame.drawCount(); ++draw) {
+        const std::string table = frame.outputSignature(draw);
+        if (printed.insert(table).second) std::printf("%s%s", printed.size() > 1 ? "\n" : "", table.c_str());
+    }
     return {};
 }
 

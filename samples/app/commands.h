@@ -17,6 +17,8 @@ struct RenderOptions
     int threads = 0;
     std::vector<std::string> settings;
     InputFiles files;
+    bool showTangents = false;
+    float tangentScale = 0.1f, tangentOffset = 0.01f;
 };
 
 struct Size
@@ -30,10 +32,14 @@ Expected<Size> parseSize(const std::string& text);
 Expected<void> list(bool json);
 Expected<void> render(const RenderOptions& options, const std::string& output);
 Expected<void> hash(const RenderOptions& options, int tileSize);
+Expected<void> signature(const RenderOptions& options, const std::string& binormal);
 Expected<void> explain(const RenderOptions& options, bool json);
 Expected<void> gallery(const std::string& folder, int threads);
 Expected<void> view(const RenderOptions& options, int frames);
 Expected<void> bench(const std::vector<std::string>& arguments);
+
+// The stage that the options name, with their settings and files.
+Expected<PreparedStage> prepare(const RenderOptions& options);
 
 // Renders into 8-bit sRGB colours and writes a PNG.
 Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path);

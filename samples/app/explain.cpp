@@ -25,10 +25,10 @@ struct MipUse
 MipUse mipUse(const LoadedInputs& inputs)
 {
     MipUse use;
-    for (const auto* texture : {&inputs.albedo, &inputs.height, &inputs.normal, &inputs.detail}) {
-        if (!texture->has_value()) continue;
-        use.built += (*texture)->levelsBuilt();
-        use.whole += (*texture)->levelCount();
+    for (const auto& texture : {inputs.albedo, inputs.height, inputs.normal, inputs.detail, inputs.detailNormal}) {
+        if (!texture) continue;
+        use.built += texture->levelsBuilt();
+        use.whole += texture->levelCount();
     }
     return use;
 }
@@ -86,11 +86,9 @@ std::vector<Row> rows(const Statistics& s, const SlotUse& slots, const MipUse& m
 
 Expected<void> explain(const RenderOptions& options, bool json)
 {
-    const Expected<const Stage*> stage = findStage(options.stage);
-    if (!stage) return tl::unexpected(stage.error());
     const Expected<Size> size = parseSize(options.size);
     if (!size) return tl::unexpected(size.error());
-    const Expected<PreparedStage> prepared = PreparedStage::prepare(**stage, options.settings, options.files);
+    const Expected<PreparedStage> prepared = prepare(options);
     if (!prepared) return tl::unexpected(prepared.error());
     Expected<Framebuffer> target = Framebuffer::create(size->width, size->height, ColorFormat::rgba32f);
     if (!target) return tl::unexpected(target.error());
@@ -108,18 +106,21 @@ Expected<void> explain(const RenderOptions& options, bool json)
 
     const std::vector<Row> table = rows(statistics, slots, mips);
     if (json) {
-        nlohmann::json all = {{"stage", (*stage)->id}, {"stem", (*stage)->stem}, {"lanes", kLanes}};
+        nlohmann::json all = {{"stage", prepared->stage->id}, {"stem", prepared->stage->stem}, {"lanes", kLanes}};
         for (const Row& row : table) {
             const std::string name = row.name;
             all["counts"][name.substr(name.find_first_not_of(' '))] = row.value;
         }
+        all["notes"] = prepared->log->notes;
         std::printf("%s\n", all.dump(2).c_str());
         return {};
     }
-    std::printf("%s %s at %dx%d\n", (*stage)->id.c_str(), (*stage)->title.c_str(), size->width, size->height);
+    std::printf("%s %s at %dx%d\n", prepared->stage->id.c_str(), prepared->stage->title.c_str(), size->width,
+                size->height);
     for (const Row& row : table) {
         std::printf("  %-30s %12llu  %s\n", row.name, static_cast<unsigned long long>(row.value), row.note.c_str());
     }
+    for (const std::string& note : prepared->log->notes) std::printf("  %s\n", note.c_str());
     return {};
 }
 

@@ -20,8 +20,18 @@ void addInputOptions(CLI::App& command, RenderOptions& options)
     command.add_option("--mesh", options.files.mesh, "An OBJ file in place of the stage's mesh")->type_name("FILE");
     command.add_option("--albedo", options.files.albedo, "A picture (sRGB) in place of the albedo")->type_name("FILE");
     command.add_option("--height", options.files.height, "A height map")->type_name("FILE");
-    command.add_option("--normal", options.files.normal, "A normal map (+Y)")->type_name("FILE");
+    command.add_option("--normal", options.files.normal, "A normal map (+Y), or its heights in grey")
+        ->type_name("FILE");
     command.add_option("--detail", options.files.detail, "A detail albedo (sRGB)")->type_name("FILE");
+    command.add_option("--detail-normal", options.files.detailNormal, "A detail normal map (+Y), or its heights")
+        ->type_name("FILE");
+    command.add_flag("--show-tangents", options.showTangents, "Normals green, tangents red, binormals blue, as lines");
+    command.add_option("--tangent-scale", options.tangentScale, "How long those lines are")
+        ->check(CLI::Range(0.0f, 10.0f))
+        ->capture_default_str();
+    command.add_option("--tangent-offset", options.tangentOffset, "How far from the surface they begin")
+        ->check(CLI::Range(0.0f, 10.0f))
+        ->capture_default_str();
 }
 
 }  // namespace
@@ -33,7 +43,7 @@ int main(int argc, char** argv)
     Expected<void> result;
     RenderOptions options;
     bool json = false;
-    std::string output;
+    std::string output, binormal;
     int tileSize = kDefaultTileSize, frames = 0;
     std::vector<std::string> benchArguments;
 
@@ -62,6 +72,13 @@ int main(int argc, char** argv)
     addInputOptions(*command, options);
     command->add_option("--tile", tileSize, "Tile size in pixels")->check(CLI::IsMember({16, 32, 64, 128}));
     command->callback([&] { result = hash(options, tileSize); });
+
+    command = app.add_subcommand("signature", "Prints what a stage's vertex programs hand to its fragment programs");
+    command->add_option("stage", options.stage, "A stage, by number or name")->required();
+    command->add_option("--set", options.settings, "A property, as name=value; may be repeated");
+    command->add_option("--binormal", binormal, "For stages with both variants: where the binormal is computed")
+        ->check(CLI::IsMember({"vertex", "fragment"}));
+    command->callback([&] { result = signature(options, binormal); });
 
     command = app.add_subcommand("explain", "Prints what drawing a stage took, and what was left out");
     addInputOptions(*command, options);

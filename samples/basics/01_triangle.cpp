@@ -59,9 +59,7 @@ Stage basics_01_triangle()
             .properties = {{"tint", glm::vec4(1.0f), 0.0f, 1.0f, 4, "colour that everything is multiplied by"}},
             .inputs = {},
             .camera = {},
-            .draw = [](const Scene& s) {
-                s.frame.draw(triangle(), MyVertexProgram{}, MyFragmentProgram{s.vector("tint")});
-            }};
+            .draw = [](const Scene& s) { s.draw(triangle(), MyVertexProgram{}, MyFragmentProgram{s.vector("tint")}); }};
 }
 
 }  // namespace relief::samples

@@ -66,10 +66,10 @@ Stage basics_02_interpolators()
             .draw = [](const Scene& s) {
                 const glm::mat4 lean = rotationX(s.number("lean")[0]);
                 const Float squares = s.number("squares");
-                s.frame.draw(s.mesh, MyVertexProgram{s.object(translation({-0.56f, 0, 0}) * lean)},
-                             MyFragmentProgram{squares, false});
-                s.frame.draw(s.mesh, MyVertexProgram{s.object(translation({0.56f, 0, 0}) * lean)},
-                             MyFragmentProgram{squares, true});
+                s.draw(s.mesh, MyVertexProgram{s.object(translation({-0.56f, 0, 0}) * lean)},
+                       MyFragmentProgram{squares, false});
+                s.draw(s.mesh, MyVertexProgram{s.object(translation({0.56f, 0, 0}) * lean)},
+                       MyFragmentProgram{squares, true});
             }};
 }
 

@@ -71,9 +71,9 @@ Stage basics_03_depth()
                         s.frame.setViewport({(view - 1) * third, 0, s.width, s.height});
                         s.frame.setScissor({view * third, 0, (view + 1) * third, s.height});
                         const MyVertexProgram vertex{s.object(turned[k] * scaling(glm::vec3(0.54f)))};
-                        if (view == 0) s.frame.draw<kBothSides>(s.mesh, vertex, ShowColor{colors[k]});
-                        if (view == 1) s.frame.draw<kBothSides>(s.mesh, vertex, ShowDepth{});
-                        if (view == 2) s.frame.draw<kBothSides>(s.mesh, vertex, ShowInverseW{});
+                        if (view == 0) s.draw<kBothSides>(s.mesh, vertex, ShowColor{colors[k]});
+                        if (view == 1) s.draw<kBothSides>(s.mesh, vertex, ShowDepth{});
+                        if (view == 2) s.draw<kBothSides>(s.mesh, vertex, ShowInverseW{});
                     }
                 }
             }};

@@ -74,7 +74,7 @@ Stage basics_04_texture()
             sampler2D mainTex = s.mainTex;
             const auto strip = [&](int k, auto program) {
                 s.cutStrip(static_cast<float>(k) / 5, static_cast<float>(k + 1) / 5);
-                s.frame.draw(s.mesh, vertex, program);
+                s.draw(s.mesh, vertex, program);
             };
             strip(4, ShowMipLevel{mainTex});
             strip(2, MyFragmentProgram{mainTex});

@@ -61,9 +61,8 @@ Stage basics_05_combining_textures()
             {.mesh = "quad", .albedo = "marble-albedo.png", .height = "", .normal = "", .detail = "marble-detail.png"},
         .camera = {.position = {0.0f, 0.0f, -1.2f}},
         .draw = [](const Scene& s) {
-            s.frame.draw(s.mesh,
-                         MyVertexProgram{s.object(glm::mat4(1.0f)), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                         MyFragmentProgram{s.vector("tint"), s.mainTex, s.detailTex});
+            s.draw(s.mesh, MyVertexProgram{s.object(glm::mat4(1.0f)), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
+                   MyFragmentProgram{s.vector("tint"), s.mainTex, s.detailTex});
         }};
 }
 

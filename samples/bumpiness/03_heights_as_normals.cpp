@@ -79,9 +79,9 @@ Stage bumpiness_03_heights_as_normals()
             .inputs = {.mesh = "quad", .albedo = kNone, .height = "marble-heights.png"},
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
             .draw = [](const Scene& s) {
-                s.frame.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                             MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                               s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap});
+                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
+                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
+                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap});
             }};
 }
 

@@ -83,10 +83,10 @@ Stage bumpiness_06_rotated_tangent()
             .inputs = {.mesh = "quad", .albedo = kNone, .height = "marble-heights.png"},
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
             .draw = [](const Scene& s) {
-                s.frame.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                             MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                               s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap,
-                                               s.heightMap_TexelSize, s.number("bumpScale")});
+                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
+                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
+                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap, s.heightMap_TexelSize,
+                                         s.number("bumpScale")});
             }};
 }
 

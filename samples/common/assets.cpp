@@ -1,11 +1,12 @@
 #include "common/assets.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <variant>
 
+#include "mesh/bounds.h"
 #include "mesh/primitives.h"
-#include "texture/image.h"
+#include "mesh/spherical_uv.h"
 
 namespace relief::samples {
 
@@ -22,46 +23,23 @@ Expected<std::string> assetPath(const std::string& name)
     return path.string();
 }
 
-Expected<Texture> loadTexture(const std::string& path, ColorSpace meaning)
+const Mesh& primitive(const std::string& name)
 {
-    const Expected<ImageFile> file = readImage(path);
-    if (!file) return tl::unexpected(file.error());
-    if (const auto* image = std::get_if<Image8>(&*file)) {
-        return Texture::fromRgba8(image->width, image->height, image->pixels, meaning);
-    }
-    if (const auto* image = std::get_if<Image16>(&*file)) {
-        return Texture::fromRgba16(image->width, image->height, image->pixels, meaning);
-    }
-    const auto& image = std::get<ImageFloat>(*file);
-    return Texture::fromRgbaFloat(image.width, image.height, image.pixels);
+    static const Mesh quad = makeQuad(), cube = makeCube(), sphere = makeSphere(48, 24), terrain = makeTerrain(64, 64);
+    static const Mesh lowSphere = makeSphere(12, 6);
+    if (name == "low-sphere") return lowSphere;
+    return name == "cube" ? cube : name == "sphere" ? sphere : name == "terrain" ? terrain : quad;
 }
 
-Mesh primitive(const std::string& name)
+Expected<Mesh> fitted(Mesh mesh)
 {
-    if (name == "cube") return makeCube();
-    if (name == "sphere") return makeSphere(48, 24);
-    if (name == "terrain") return makeTerrain(64, 64);
-    return makeQuad();
-}
-
-Mesh fitted(Mesh mesh)
-{
-    if (mesh.positions.empty()) return mesh;
-    glm::vec3 low = mesh.positions[0], high = low;
-    for (const glm::vec3& p : mesh.positions) {
-        for (int i = 0; i < 3; ++i) {
-            low[i] = p[i] < low[i] ? p[i] : low[i];
-            high[i] = p[i] > high[i] ? p[i] : high[i];
-        }
-    }
+    const Bounds bounds = boundsOf(mesh);
     float extent = 0.0f;
-    for (int i = 0; i < 3; ++i) extent = high[i] - low[i] > extent ? high[i] - low[i] : extent;
+    for (int i = 0; i < 3; ++i) extent = std::max(extent, bounds.high[i] - bounds.low[i]);
     const float scale = extent > 0.0f ? 1.0f / extent : 1.0f;
-    for (glm::vec3& p : mesh.positions) p = (p - low * 0.5f - high * 0.5f) * scale;
-    if (mesh.uvs.empty()) {
-        for (const glm::vec3& p : mesh.positions) mesh.uvs.emplace_back(p.x + 0.5f, p.z + 0.5f);
-    }
-    return mesh;
+    for (glm::vec3& p : mesh.positions) p = (p - bounds.low * 0.5f - bounds.high * 0.5f) * scale;
+    if (!mesh.uvs.empty()) return mesh;
+    return withSphericalUvs(std::move(mesh));
 }
 
 }  // namespace relief::samples

@@ -5,7 +5,6 @@
 
 #include "error.h"
 #include "mesh/mesh.h"
-#include "texture/texture.h"
 
 namespace relief::samples {
 
@@ -13,13 +12,11 @@ namespace relief::samples {
 // that was tried.
 Expected<std::string> assetPath(const std::string& name);
 
-Expected<Texture> loadTexture(const std::string& path, ColorSpace meaning);
-
-// "quad", "cube", "sphere" or "terrain".
-Mesh primitive(const std::string& name);
+// "quad", "cube", "sphere" or "terrain"; made once per process.
+const Mesh& primitive(const std::string& name);
 
 // The mesh moved and scaled so that it fits the unit cube about the origin, as the primitives do. A mesh without uv
-// gets its picture projected from above: u along x, v along z.
-Mesh fitted(Mesh mesh);
+// gets them by longitude and latitude, as a globe has its map.
+Expected<Mesh> fitted(Mesh mesh);
 
 }  // namespace relief::samples

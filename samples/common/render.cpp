@@ -72,20 +72,24 @@ Expected<PreparedStage> PreparedStage::prepare(const Stage& stage, const std::ve
     Expected<std::unique_ptr<LoadedInputs>> inputs = loadInputs(stage.inputs, files);
     if (!inputs) return tl::unexpected(inputs.error());
     prepared.inputs = std::move(*inputs);
+    prepared.log = std::make_unique<SceneLog>();
     return prepared;
 }
 
 const Camera& PreparedStage::camera() const
 {
     static const Camera facing = {.position = {0.0f, 0.4f, -1.7f}};
-    return inputs->usersMesh ? facing : stage->camera;
+    return inputs->usersMesh.has_value() ? facing : stage->camera;
 }
 
 void PreparedStage::record(Frame& frame, int width, int height, const Camera& camera) const
 {
     frame.reset();
     frame.clear(kBackground);
-    stage->draw(Scene(frame, width, height, camera, *inputs, properties));
+    log->clear();
+    const Scene scene(frame, *log, width, height, camera, *inputs, properties);
+    stage->draw(scene);
+    if (tangentLines) scene.showTangents(*tangentLines);
 }
 
 std::uint64_t hashOf(const Framebuffer& target)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/stage.h"
+#include "common/tangent_space_visualizer.h"
 
 namespace relief::samples {
 
@@ -31,6 +32,8 @@ public:
     const Stage* stage = nullptr;
     std::vector<Property> properties;
     std::unique_ptr<LoadedInputs> inputs;
+    std::optional<TangentSpaceVisualizer> tangentLines;  // over the picture, for every mesh that was drawn
+    std::unique_ptr<SceneLog> log;                       // of the last record()
 };
 
 // A 64-bit hash of the float colours and the depths of a target of format rgba32f that keeps its depth: one number that

@@ -1,8 +1,11 @@
 #include "common/scene.h"
 
-#include <filesystem>
+#include <algorithm>
+#include <sstream>
 
 #include "common/assets.h"
+#include "common/tangent_space_visualizer.h"
+#include "mesh/tangents.h"
 
 namespace relief::samples {
 
@@ -16,9 +19,9 @@ glm::vec3 towardsLight(float pitch, float yaw)
     return {-forward.x, -forward.y, -forward.z};
 }
 
-sampler2D sampler(const std::optional<Texture>& texture, const Texture& missing)
+sampler2D sampler(const std::shared_ptr<const Texture>& texture, const Texture& missing)
 {
-    return {.texture = texture ? &*texture : &missing};
+    return {.texture = texture ? texture.get() : &missing};
 }
 
 // Fails where the user gives a file that the stage does not read; gives the path to load, or nothing.
@@ -27,21 +30,44 @@ Expected<std::string> choose(const std::string& option, const std::string& input
     if (!file.empty() && input.empty()) {
         return fail("--" + option + " " + file + ": this stage reads no " + option + "; leave the option out");
     }
+    if (file == kNone) return std::string();
     if (!file.empty()) return file;
     if (input.empty() || input == kNone) return std::string();
     return assetPath(input);
 }
 
-Expected<void> load(const std::string& option, const std::string& input, const std::string& file, ColorSpace meaning,
-                    std::optional<Texture>& texture)
+Expected<void> load(const std::string& option, const std::string& input, const std::string& file,
+                    const ImportSettings& settings, std::shared_ptr<const Texture>& texture)
 {
     const Expected<std::string> path = choose(option, input, file);
     if (!path) return tl::unexpected(path.error());
     if (path->empty()) return {};
-    Expected<Texture> loaded = loadTexture(*path, meaning);
+    Expected<std::shared_ptr<const Texture>> loaded = importTexture(*path, settings);
     if (!loaded) return tl::unexpected(loaded.error());
-    texture.emplace(std::move(*loaded));
+    texture = std::move(*loaded);
     return {};
+}
+
+// A rotation by 90 degrees about X with exact zeros, so that the quad's normal is (0, 1, 0) to the last bit.
+constexpr glm::mat4 kLying = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}};
+
+// The shapes of "cube+sphere+quad": solids side by side and turned a little, a quad among them as their floor.
+std::vector<Object> arranged(const std::string& names)
+{
+    std::vector<std::string> solids;
+    std::vector<Object> objects;
+    std::stringstream list(names);
+    for (std::string name; std::getline(list, name, '+');) solids.push_back(name);
+    if (solids.size() == 1) return {{&primitive(solids[0]), glm::mat4(1.0f)}};
+    const bool floor = solids.back() == "quad";
+    if (floor) solids.pop_back();
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+        const float x = (static_cast<float>(i) - static_cast<float>(solids.size() - 1) * 0.5f) * 1.35f;
+        objects.push_back(
+            {&primitive(solids[i]), translation({x, 0, 0}) * rotationY(solids[i] == "cube" ? 35.0f : 0.0f)});
+    }
+    if (floor) objects.push_back({&primitive("quad"), translation({0, -0.5f, 0}) * kLying * scaling(glm::vec3(4.0f))});
+    return objects;
 }
 
 }  // namespace
@@ -54,17 +80,20 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     }
     if (!files.mesh.empty()) {
         Expected<Mesh> mesh = readObj(files.mesh);
+        if (mesh) mesh = fitted(std::move(*mesh));
         if (!mesh) return tl::unexpected(mesh.error());
-        loaded->mesh = fitted(std::move(*mesh));
-        loaded->usersMesh = true;
+        loaded->usersMesh = std::move(*mesh);
+        loaded->objects = {{&*loaded->usersMesh, glm::mat4(1.0f)}};
     } else {
-        loaded->mesh = primitive(inputs.mesh);
+        loaded->objects = arranged(inputs.mesh.empty() ? "quad" : inputs.mesh);
     }
+    const ImportSettings albedo = {}, heights = {.colorSpace = ColorSpace::linear};
     const Expected<void> results[] = {
-        load("albedo", inputs.albedo, files.albedo, ColorSpace::srgb, loaded->albedo),
-        load("height", inputs.height, files.height, ColorSpace::linear, loaded->height),
-        load("normal", inputs.normal, files.normal, ColorSpace::linear, loaded->normal),
-        load("detail", inputs.detail, files.detail, ColorSpace::srgb, loaded->detail),
+        load("albedo", inputs.albedo, files.albedo, albedo, loaded->albedo),
+        load("height", inputs.height, files.height, heights, loaded->height),
+        load("normal", inputs.normal, files.normal, inputs.normalImport, loaded->normal),
+        load("detail", inputs.detail, files.detail, inputs.detailImport, loaded->detail),
+        load("detail-normal", inputs.detailNormal, files.detailNormal, inputs.detailNormalImport, loaded->detailNormal),
     };
     for (const Expected<void>& result : results) {
         if (!result) return tl::unexpected(result.error());
@@ -72,19 +101,30 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     return loaded;
 }
 
-Scene::Scene(Frame& target, int w, int h, const Camera& camera, const LoadedInputs& inputs,
+void SceneLog::clear()
+{
+    for (const Mesh& mesh : kept) tangents.erase(&mesh);
+    drawn.clear();
+    notes.clear();
+    kept.clear();
+}
+
+Scene::Scene(Frame& target, SceneLog& sceneLog, int w, int h, const Camera& camera, const LoadedInputs& inputs,
              const std::vector<Property>& properties)
     : frame(target),
       width(w),
       height(h),
-      mesh(inputs.mesh),
+      objects(inputs.objects),
+      mesh(*inputs.objects[0].mesh),
       worldSpaceCameraPos(broadcast(camera.position)),
       mainTex(sampler(inputs.albedo, Texture::white())),
       heightMap(sampler(inputs.height, Texture::grey())),
       normalMap(sampler(inputs.normal, Texture::flatNormal())),
       detailTex(sampler(inputs.detail, Texture::grey())),
+      detailNormalMap(sampler(inputs.detailNormal, Texture::flatNormal())),
       heightMap_TexelSize(texelSize(heightMap)),
-      usersMesh(inputs.usersMesh),
+      log(sceneLog),
+      usersMesh(inputs.usersMesh.has_value()),
       clipFromWorld(clipFromView(camera, static_cast<float>(w) / static_cast<float>(h)) * viewFromWorld(camera))
 {
     for (const Property& p : properties) values[p.name] = p.value;
@@ -109,9 +149,48 @@ ObjectTransform Scene::object(const glm::mat4& worldFromObject) const
 
 ObjectTransform Scene::lying() const
 {
-    // A rotation by 90 degrees about X with exact zeros, so that the quad's normal is (0, 1, 0) to the last bit.
-    const glm::mat4 laid = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}};
-    return object(usersMesh ? glm::mat4(1.0f) : laid);
+    return object(usersMesh ? glm::mat4(1.0f) : kLying);
+}
+
+const Mesh& Scene::keep(Mesh made) const
+{
+    return log.kept.emplace_back(std::move(made));
+}
+
+void Scene::note(const std::string& line) const
+{
+    log.notes.push_back(line);
+}
+
+void Scene::showTangents(const TangentSpaceVisualizer& visualizer) const
+{
+    std::vector<Object> shown;
+    for (const Object& o : std::vector<Object>(log.drawn)) {
+        // Every pass of an object draws it again, but its tangent space is the same.
+        const auto same = [&o](const Object& other) {
+            return o.mesh == other.mesh && o.worldFromObject == other.worldFromObject;
+        };
+        if (std::any_of(shown.begin(), shown.end(), same)) continue;
+        shown.push_back(o);
+        visualizer.ShowTangentSpace(*this, withTangents(*o.mesh), o.worldFromObject);
+    }
+}
+
+void Scene::leftOut(const std::string& name, const Object& object) const
+{
+    note("pass left out: " + name + " does not reach the " + object.mesh->name);
+}
+
+const Mesh& Scene::withTangents(const Mesh& plain) const
+{
+    if (!plain.tangents.empty()) return plain;
+    std::unique_ptr<Mesh>& made = log.tangents[&plain];
+    if (!made) {
+        Expected<Mesh> computed = relief::withTangents(plain);
+        made = std::make_unique<Mesh>(computed ? std::move(*computed) : plain);
+        note("tangents computed for " + plain.name);
+    }
+    return *made;
 }
 
 void Scene::cutStrip(float from, float to) const
@@ -137,6 +216,55 @@ std::vector<Property> litProperties(std::vector<Property> more)
 Property bumpScaleProperty()
 {
     return {"bumpScale", glm::vec4(5.0f), -32.0f, 32.0f, 1, "texels that the height map's whole range is high"};
+}
+
+Property mapScaleProperty(const std::string& name, float value)
+{
+    return {name, glm::vec4(value), -32.0f, 32.0f, 1, "the bumps' strength; 1: as the map was made"};
+}
+
+Property detailTilingProperty()
+{
+    return {"detailTex_ST", {3, 3, 0, 0}, -64.0f, 64.0f, 4, "tiling and offset of both detail textures"};
+}
+
+Property binormalPerFragmentProperty(float value)
+{
+    return {"binormalPerFragment", glm::vec4(value), 0.0f, 2.0f, 1, "0: per vertex, 1: per fragment"};
+}
+
+ImportSettings normalMapSettings(float bumpiness, bool fadeOutMips)
+{
+    return {.kind = ImportSettings::Kind::normalMap,
+            .storage = ImportSettings::Storage::dxt5nm,
+            .bumpiness = bumpiness,
+            .fadeOutMips = fadeOutMips,
+            .fadeFirst = 2,
+            .fadeLast = 5};
+}
+
+Inputs detailedMarble(const std::string& mesh)
+{
+    return {.mesh = mesh,
+            .albedo = "marble-albedo.png",
+            .normal = "marble-heights.png",
+            .detail = "marble-detail.png",
+            .detailNormal = "marble-detail.png",
+            .detailImport = {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5},
+            .detailNormalImport = normalMapSettings(0.1f, true)};
+}
+
+Inputs bare(const std::string& mesh)
+{
+    return {.mesh = mesh, .albedo = kNone, .normal = kNone, .detail = kNone, .detailNormal = kNone};
+}
+
+std::vector<Property> detailedProperties(const std::vector<Property>& more)
+{
+    std::vector<Property> all = litProperties(
+        {mapScaleProperty("bumpScale", 0.5f), detailTilingProperty(), mapScaleProperty("detailBumpScale", 0.5f)});
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
 }
 
 }  // namespace relief::samples

@@ -2,6 +2,7 @@
 // of its programs: matrices, camera, light, textures and the values of the stage's properties.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,8 +11,11 @@
 
 #include "common/camera.h"
 #include "relief.h"
-#include "shading/lighting.h"
+#include "shading/lights.h"
+#include "shading/normals.h"
 #include "shading/object_transform.h"
+#include "shading/tangent_space.h"
+#include "texture/import.h"
 
 namespace relief::samples {
 
@@ -27,46 +31,74 @@ struct Property
 };
 
 // What a stage reads from files: the default's name in assets/; empty: the stage has no such input; `none`: it has one,
-// but nothing is in it by default.
+// but nothing is in it by default. The import settings are those of Unity's inspector.
 inline constexpr const char* kNone = "none";
+
+// A normal map as DXT5nm: of a grey picture's heights, or of a picture of normals.
+ImportSettings normalMapSettings(float bumpiness, bool fadeOutMips = false);
 
 struct Inputs
 {
-    std::string mesh;  // "quad", "cube", "sphere", "terrain"
-    std::string albedo, height, normal, detail;
+    std::string mesh;  // "quad", "cube", "sphere", "terrain"; several with + between them stand side by side
+    std::string albedo, height, normal, detail, detailNormal;
+    ImportSettings normalImport = normalMapSettings(0.05f);
+    ImportSettings detailImport = {};
+    ImportSettings detailNormalImport = normalMapSettings(0.1f);
 };
 
 // The user's files in place of the defaults; empty: the default.
 struct InputFiles
 {
-    std::string mesh, albedo, height, normal, detail;
+    std::string mesh, albedo, height, normal, detail, detailNormal;
+};
+
+// A mesh and where it stands.
+struct Object
+{
+    const Mesh* mesh;
+    glm::mat4 worldFromObject;
 };
 
 // The loaded inputs; they outlive the frames that use them.
 struct LoadedInputs
 {
-    Mesh mesh;
-    bool usersMesh = false;
-    std::optional<Texture> albedo, height, normal, detail;
+    std::optional<Mesh> usersMesh;
+    std::vector<Object> objects;  // the user's mesh alone, or the stage's
+    std::shared_ptr<const Texture> albedo, height, normal, detail, detailNormal;
 };
 
 // Loads what a stage reads. A file that cannot be read, or that the stage has no input for, is an error naming it.
 Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const InputFiles& files);
 
+// What a scene leaves behind when it is drawn, and what the frame still needs when it runs.
+struct SceneLog
+{
+    std::vector<Object> drawn;                              // every draw's mesh and matrix, in order
+    std::vector<std::string> notes;                         // what was left out, and what was measured; for explain
+    std::deque<Mesh> kept;                                  // meshes that the scene made
+    std::map<const Mesh*, std::unique_ptr<Mesh>> tangents;  // meshes that came without tangents, with them
+
+    // For the next frame; tangents stay.
+    void clear();
+};
+
+struct TangentSpaceVisualizer;
+
 class Scene
 {
 public:
-    Scene(Frame& frame, int width, int height, const Camera& camera, const LoadedInputs& inputs,
+    Scene(Frame& frame, SceneLog& log, int width, int height, const Camera& camera, const LoadedInputs& inputs,
           const std::vector<Property>& properties);
 
     Frame& frame;
     int width, height;
-    const Mesh& mesh;
+    const std::vector<Object>& objects;
+    const Mesh& mesh;  // the first object's
 
     // Uniforms, under Unity's names without their underscores.
     float3 worldSpaceCameraPos;
     UnityLight light;  // directional, turned by the properties lightPitch and lightYaw
-    sampler2D mainTex, heightMap, normalMap, detailTex;
+    sampler2D mainTex, heightMap, normalMap, detailTex, detailNormalMap;
     float4 heightMap_TexelSize;
 
     // A property's value in every lane.
@@ -77,14 +109,55 @@ public:
     ObjectTransform object(const glm::mat4& worldFromObject) const;
     ObjectTransform lying() const;
 
+    // Frame::draw. A mesh without tangents gets them here, if the vertex program reads any, and a mirrored object its
+    // front faces.
+    template <RenderState state = RenderState{}, class VertexProgram, class FragmentProgram>
+    void draw(const Mesh& mesh, const VertexProgram& vertexProgram, const FragmentProgram& fragmentProgram) const;
+
+    // Whether a light reaches an object; if not, its pass is to be left out, and explain says so.
+    template <class Light>
+    bool reaches(const std::string& name, const Light& light, const Object& object) const;
+
     // Draws into the same camera's picture again, but only between two fractions of its width.
     void cutStrip(float from, float to) const;
 
+    // Lines over everything drawn so far.
+    void showTangents(const TangentSpaceVisualizer& visualizer) const;
+
+    // For meshes that a stage makes: they live until the frame has run. And a line for explain.
+    const Mesh& keep(Mesh made) const;
+    void note(const std::string& line) const;
+
 private:
+    const Mesh& withTangents(const Mesh& mesh) const;
+    void leftOut(const std::string& name, const Object& object) const;
+
+    SceneLog& log;
     bool usersMesh;
     glm::mat4 clipFromWorld;
     std::map<std::string, glm::vec4> values;
 };
+
+template <RenderState state, class VertexProgram, class FragmentProgram>
+void Scene::draw(const Mesh& drawnMesh, const VertexProgram& vertexProgram,
+                 const FragmentProgram& fragmentProgram) const
+{
+    constexpr bool readsTangents = hasField<TANGENT, relief::detail::VertexDataFor<VertexProgram>>();
+    if constexpr (requires { vertexProgram.object.worldFromObject; }) {
+        const glm::mat4 worldFromObject = firstLane(vertexProgram.object.worldFromObject);
+        log.drawn.push_back({&drawnMesh, worldFromObject});
+        frame.setFrontCounterClockwise(mirrorSign(worldFromObject) < 0.0f);
+    }
+    frame.draw<state>(readsTangents ? withTangents(drawnMesh) : drawnMesh, vertexProgram, fragmentProgram);
+}
+
+template <class Light>
+bool Scene::reaches(const std::string& name, const Light& source, const Object& object) const
+{
+    const bool reached = lightReaches(source, transformed(boundsOf(*object.mesh), object.worldFromObject));
+    if (!reached) leftOut(name, object);
+    return reached;
+}
 
 // The properties of Rendering 5's material, on which all of "Bumpiness" builds, and the light's two angles.
 std::vector<Property> litProperties(std::vector<Property> more = {});
@@ -92,5 +165,18 @@ std::vector<Property> litProperties(std::vector<Property> more = {});
 // The height of the bumps: how many texels high the whole range of the height map is. Resolution changes the look
 // unless this grows with it, which is what the tutorial's "replace delta by 1" hides.
 Property bumpScaleProperty();
+
+// Of a finished normal map, as the tutorial's Bump Scale: 1 takes it as it is.
+Property mapScaleProperty(const std::string& name, float value);
+Property detailTilingProperty();
+
+// Where the binormal is computed: the default is the CMake option BINORMAL_PER_FRAGMENT.
+inline constexpr bool kBinormalPerFragment = RELIEF_BINORMAL_PER_FRAGMENT != 0;
+Property binormalPerFragmentProperty(float value);
+
+// What the stages from 1.19 on share: the marble with its normals, detail and detail normals, and their properties.
+Inputs detailedMarble(const std::string& mesh);
+Inputs bare(const std::string& mesh);  // the same inputs, with nothing in them
+std::vector<Property> detailedProperties(const std::vector<Property>& more = {});
 
 }  // namespace relief::samples

@@ -1,0 +1,89 @@
+// 0.06 First light: the metallic workflow, and the lighting model of everything that follows
+// New: light. A colour is split between diffuse and specular, and the GGX model says how much of each is seen.
+// Was: colours alone (0.05).
+#include "common/stage.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<1, float3> normal;
+    TEXCOORD<2, float3> worldPos;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.normal = UnityObjectToWorldNormal(object, v.normal);
+        return i;
+    }
+};
+
+struct MyFragmentProgram
+{
+    float4 tint;
+    Float metallic, smoothness;
+    float3 worldSpaceCameraPos;
+    UnityLight light;
+    bool exact;
+
+    float4 operator()(Interpolators i) const
+    {
+        i.normal = normalize(i.normal);
+        const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
+
+        float3 albedo = tint.xyz();
+        float3 specularTint;
+        Float oneMinusReflectivity;
+        albedo = DiffuseAndSpecularFromMetallic(albedo, metallic, specularTint, oneMinusReflectivity);
+
+        if (exact) return UNITY_BRDF_PBS_Exact(albedo, specularTint, smoothness, i.normal, viewDir, light);
+        return UNITY_BRDF_PBS(albedo, specularTint, smoothness, i.normal, viewDir, light);
+    }
+};
+
+}  // namespace
+
+Stage basics_06_first_light()
+{
+    return {
+        .title = "First light",
+        .section = "parts 4 and 5",
+        .news = "Metals (above) and dielectrics (below) under one light, from matte to polished.",
+        .properties = {{"tint", {1.0f, 0.72f, 0.32f, 1.0f}, 0.0f, 1.0f, 4, "the material's colour, linear"},
+                       {"smoothness", glm::vec4(1.0f), 0.0f, 1.0f, 1, "of the last column; the first has 0.1"},
+                       {"exact", glm::vec4(0.0f), 0.0f, 1.0f, 1, "1: the model without Unity's epsilons"},
+                       {"lightPitch", glm::vec4(35.0f), -180.0f, 180.0f, 1, "the light's rotation about X, degrees"},
+                       {"lightYaw", glm::vec4(-20.0f), -180.0f, 180.0f, 1, "the light's rotation about Y, degrees"}},
+        .inputs = {.mesh = "sphere"},
+        .camera = {.position = {0.0f, 0.0f, -4.8f}},
+        .draw = [](const Scene& s) {
+            const float first = 0.1f, last = s.number("smoothness")[0];
+            for (int column = 0; column < 5; ++column) {
+                for (int row = 0; row < 2; ++row) {
+                    const float x = 1.1f * static_cast<float>(column - 2), y = 1.1f * static_cast<float>(row) - 0.55f;
+                    const float part = static_cast<float>(column) / 4.0f;
+                    s.draw(s.mesh, MyVertexProgram{s.object(translation({x, y, 0.0f}))},
+                           MyFragmentProgram{s.vector("tint"), static_cast<float>(row), first + (last - first) * part,
+                                             s.worldSpaceCameraPos, s.light, s.number("exact")[0] > 0.5f});
+                }
+            }
+        }};
+}
+
+}  // namespace relief::samples

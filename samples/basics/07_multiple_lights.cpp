@@ -1,0 +1,139 @@
+// 0.07 Multiple lights: a base pass, additive passes, lights per vertex, and ambient light
+// New: a light that comes after the first is a draw of its own, whose result is added.
+// Was: one light (0.06).
+#include "common/stage.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+};
+
+template <bool VERTEXLIGHT_ON>
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<1, float3> normal;
+    TEXCOORD<2, float3> worldPos;
+};
+
+template <>
+struct Interpolators<true>
+{
+    SV_POSITION position;
+    TEXCOORD<1, float3> normal;
+    TEXCOORD<2, float3> worldPos;
+    TEXCOORD<3, float3> vertexLightColor;
+};
+
+template <bool VERTEXLIGHT_ON>
+struct MyVertexProgram
+{
+    ObjectTransform object;
+    VertexLights vertexLights;
+
+    Interpolators<VERTEXLIGHT_ON> operator()(VertexData v) const
+    {
+        Interpolators<VERTEXLIGHT_ON> i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.normal = UnityObjectToWorldNormal(object, v.normal);
+        if constexpr (VERTEXLIGHT_ON) i.vertexLightColor = Shade4PointLights(vertexLights, i.worldPos, i.normal);
+        return i;
+    }
+};
+
+// The base pass has the vertex lights and the surroundings besides its own light.
+template <class Light, bool basePass>
+struct MyFragmentProgram
+{
+    float4 tint;
+    Float metallic, smoothness;
+    float3 worldSpaceCameraPos;
+    Light source;
+    SphericalHarmonics ambient;
+
+    float4 operator()(Interpolators<basePass> i) const
+    {
+        i.normal = normalize(i.normal);
+        const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
+
+        float3 albedo = tint.xyz();
+        float3 specularTint;
+        Float oneMinusReflectivity;
+        albedo = DiffuseAndSpecularFromMetallic(albedo, metallic, specularTint, oneMinusReflectivity);
+
+        const UnityLight light = CreateLight(source, i.worldPos);
+        float4 color = UNITY_BRDF_PBS(albedo, specularTint, smoothness, i.normal, viewDir, light);
+        if constexpr (basePass) {
+            color += float4(albedo * (i.vertexLightColor + ShadeSH9(ambient, i.normal)), 0);
+        }
+        return color;
+    }
+};
+
+// The base pass fills the depth buffer; an additive pass adds its light where that very depth is seen.
+constexpr RenderState kBasePass = {};
+constexpr RenderState kAdditivePass = {.depthTest = Compare::equal, .depthWrite = false, .blend = Blend::additive};
+
+// A red and a green lamp of range 1.5; the other two of the four are black.
+VertexLights twoLamps(Float strength)
+{
+    const float attenSq = 25.0f / (1.5f * 1.5f);
+    return {.positionX = {0.0f, 1.5f, 0.0f, 0.0f},
+            .positionY = {0.4f, 0.0f, 0.0f, 0.0f},
+            .positionZ = {-0.6f, -0.5f, 0.0f, 0.0f},
+            .attenSq = float4(Float(attenSq)),
+            .color = {float3(1.0f, 0.15f, 0.1f) * strength, float3(0.1f, 1.0f, 0.2f) * strength, float3(Float(0.0f)),
+                      float3(Float(0.0f))}};
+}
+
+template <RenderState pass, class Light>
+void drawPass(const Scene& s, const Object& o, const Light& light)
+{
+    constexpr bool basePass = pass.blend == Blend::off;
+    const float ambient = s.number("ambient")[0];
+    const glm::vec3 sky(0.1f, 0.13f, 0.2f), equator(0.05f), ground(0.02f);
+    s.draw<pass>(*o.mesh, MyVertexProgram<basePass>{s.object(o.worldFromObject), twoLamps(s.number("vertexLights"))},
+                 MyFragmentProgram<Light, basePass>{
+                     s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos, light,
+                     gradientSurroundings(sky * ambient, equator * ambient, ground * ambient)});
+}
+
+}  // namespace
+
+Stage basics_07_multiple_lights()
+{
+    return {.title = "Multiple lights",
+            .section = "part 5",
+            .news = "A sun, a lamp, a spot, two lamps per vertex and the sky: one base pass, and additive passes.",
+            .properties = litProperties(
+                {{"sun", glm::vec4(0.25f), 0.0f, 8.0f, 1, "strength of the directional light; base pass"},
+                 {"lamp", glm::vec4(8.0f), 0.0f, 64.0f, 1, "strength of the blue point light; additive pass"},
+                 {"spot", glm::vec4(12.0f), 0.0f, 64.0f, 1, "strength of the yellow spot light; additive pass"},
+                 {"vertexLights", glm::vec4(1.5f), 0.0f, 8.0f, 1, "strength of the red and green lamp; per vertex"},
+                 {"ambient", glm::vec4(1.0f), 0.0f, 8.0f, 1, "strength of the surroundings; spherical harmonics"}}),
+            .inputs = {.mesh = "cube+sphere+quad"},
+            .camera = {.position = {0.0f, 1.1f, -2.7f}, .target = {0.0f, -0.1f, 0.0f}},
+            .draw = [](const Scene& s) {
+                const DirectionalLight sun = {s.light.color * s.number("sun"), s.light.dir};
+                const PointLight lamp = {float3(0.2f, 0.45f, 1.0f) * s.number("lamp"), {-1.3f, 0.6f, -0.9f}, 1.2f};
+                const SpotLight spot = {float3(1.0f, 0.8f, 0.3f) * s.number("spot"),
+                                        {1.5f, 1.6f, -0.8f},
+                                        3.5f,
+                                        normalize(float3(-0.48f, -0.78f, 0.4f)),
+                                        0.93f,
+                                        0.96f};
+                for (const Object& o : s.objects) {
+                    drawPass<kBasePass>(s, o, sun);
+                    if (s.reaches("the lamp", lamp, o)) drawPass<kAdditivePass>(s, o, lamp);
+                    if (s.reaches("the spot", spot, o)) drawPass<kAdditivePass>(s, o, spot);
+                }
+            }};
+}
+
+}  // namespace relief::samples

@@ -1,0 +1,89 @@
+// 1.11 DXT5nm: Rendering 6 "Bumpiness", section 2.2
+// New: x from alpha, y from green, and z from the length of 1.
+// Was: red, green and blue taken for x, y and z (1.10).
+#include "common/stage.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+    TEXCOORD<0, float2> uv;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float2> uv;
+    TEXCOORD<1, float3> normal;
+    TEXCOORD<2, float3> worldPos;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+    float4 mainTex_ST;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.normal = UnityObjectToWorldNormal(object, v.normal);
+        i.uv = TRANSFORM_TEX(v.uv, mainTex_ST);
+        return i;
+    }
+};
+
+struct MyFragmentProgram
+{
+    float4 tint;
+    Float metallic, smoothness;
+    float3 worldSpaceCameraPos;
+    UnityLight light;
+    sampler2D mainTex;
+    sampler2D normalMap;
+
+    void InitializeFragmentNormal(Interpolators& i) const
+    {
+        const float2 xy = tex2D(normalMap, i.uv).wy() * 2.0f - 1.0f;
+        i.normal = float3(xy, sqrt(1.0f - saturate(dot(xy, xy))));
+        i.normal = i.normal.xzy();
+        i.normal = normalize(i.normal);
+    }
+
+    float4 operator()(Interpolators i) const
+    {
+        InitializeFragmentNormal(i);
+        const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
+
+        float3 albedo = tex2D(mainTex, i.uv).xyz() * tint.xyz();
+        float3 specularTint;
+        Float oneMinusReflectivity;
+        albedo = DiffuseAndSpecularFromMetallic(albedo, metallic, specularTint, oneMinusReflectivity);
+
+        return UNITY_BRDF_PBS(albedo, specularTint, smoothness, i.normal, viewDir, light);
+    }
+};
+
+}  // namespace
+
+Stage bumpiness_11_dxt5nm()
+{
+    return {.title = "DXT5nm",
+            .section = "2.2",
+            .news = "The map as it is stored: x in alpha, y in green, z from x and y.",
+            .properties = litProperties(),
+            .inputs = {.mesh = "quad", .albedo = kNone, .normal = "marble-heights.png"},
+            .camera = {.position = {0.0f, 0.9f, -0.75f}},
+            .draw = [](const Scene& s) {
+                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
+                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
+                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.normalMap});
+            }};
+}
+
+}  // namespace relief::samples

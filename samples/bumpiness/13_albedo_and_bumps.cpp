@@ -1,0 +1,93 @@
+// 1.13 Albedo and bumps: Rendering 6 "Bumpiness", section 2.4
+// New: the marble's colours, without the bumps (left) and with them (right).
+// Was: bumps alone (1.12).
+#include "common/stage.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+    TEXCOORD<0, float2> uv;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float2> uv;
+    TEXCOORD<1, float3> normal;
+    TEXCOORD<2, float3> worldPos;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+    float4 mainTex_ST;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.normal = UnityObjectToWorldNormal(object, v.normal);
+        i.uv = TRANSFORM_TEX(v.uv, mainTex_ST);
+        return i;
+    }
+};
+
+struct MyFragmentProgram
+{
+    float4 tint;
+    Float metallic, smoothness;
+    float3 worldSpaceCameraPos;
+    UnityLight light;
+    sampler2D mainTex;
+    sampler2D normalMap;
+    Float bumpScale;
+
+    void InitializeFragmentNormal(Interpolators& i) const
+    {
+        i.normal = UnpackScaleNormal(tex2D(normalMap, i.uv), bumpScale);
+        i.normal = i.normal.xzy();
+        i.normal = normalize(i.normal);
+    }
+
+    float4 operator()(Interpolators i) const
+    {
+        InitializeFragmentNormal(i);
+        const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
+
+        float3 albedo = tex2D(mainTex, i.uv).xyz() * tint.xyz();
+        float3 specularTint;
+        Float oneMinusReflectivity;
+        albedo = DiffuseAndSpecularFromMetallic(albedo, metallic, specularTint, oneMinusReflectivity);
+
+        return UNITY_BRDF_PBS(albedo, specularTint, smoothness, i.normal, viewDir, light);
+    }
+};
+
+}  // namespace
+
+Stage bumpiness_13_albedo_and_bumps()
+{
+    return {.title = "Albedo and bumps",
+            .section = "2.4",
+            .news = "The marble's colours, polished on the left, bumpy on the right.",
+            .properties = litProperties({mapScaleProperty("bumpScale", 0.5f)}),
+            .inputs = {.mesh = "quad", .albedo = "marble-albedo.png", .normal = "marble-heights.png"},
+            .camera = {.position = {0.0f, 0.9f, -0.75f}},
+            .draw = [](const Scene& s) {
+                for (const float withBumps : {0.0f, 1.0f}) {
+                    s.cutStrip(0.5f * withBumps, 0.5f + 0.5f * withBumps);
+                    s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
+                           MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
+                                             s.worldSpaceCameraPos, s.light, s.mainTex, s.normalMap,
+                                             s.number("bumpScale") * withBumps});
+                }
+            }};
+}
+
+}  // namespace relief::samples

@@ -1,0 +1,95 @@
+// 1.14 Detail albedo: Rendering 6 "Bumpiness", section 3
+// New: a detail texture, whose uv travel in the other half of the same TEXCOORD.
+// Was: one texture, without and with bumps (1.13).
+#include "common/stage.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+    TEXCOORD<0, float2> uv;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float4> uv;  // main in xy, detail in zw
+    TEXCOORD<1, float3> normal;
+    TEXCOORD<2, float3> worldPos;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+    float4 mainTex_ST, detailTex_ST;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.normal = UnityObjectToWorldNormal(object, v.normal);
+        i.uv = float4(TRANSFORM_TEX(v.uv, mainTex_ST), TRANSFORM_TEX(v.uv, detailTex_ST));
+        return i;
+    }
+};
+
+struct MyFragmentProgram
+{
+    float4 tint;
+    Float metallic, smoothness;
+    float3 worldSpaceCameraPos;
+    UnityLight light;
+    sampler2D mainTex, detailTex;
+    sampler2D normalMap;
+    Float bumpScale;
+
+    void InitializeFragmentNormal(Interpolators& i) const
+    {
+        i.normal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
+        i.normal = i.normal.xzy();
+        i.normal = normalize(i.normal);
+    }
+
+    float4 operator()(Interpolators i) const
+    {
+        InitializeFragmentNormal(i);
+        const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
+
+        float3 albedo = tex2D(mainTex, i.uv.xy()).xyz() * tint.xyz();
+        albedo *= tex2D(detailTex, i.uv.zw()).xyz() * unity_ColorSpaceDouble;
+        float3 specularTint;
+        Float oneMinusReflectivity;
+        albedo = DiffuseAndSpecularFromMetallic(albedo, metallic, specularTint, oneMinusReflectivity);
+
+        return UNITY_BRDF_PBS(albedo, specularTint, smoothness, i.normal, viewDir, light);
+    }
+};
+
+}  // namespace
+
+Stage bumpiness_14_detail_albedo()
+{
+    return {.title = "Detail albedo",
+            .section = "3",
+            .news = "A finer grain over the marble's colours; it fades out in the distance.",
+            .properties = litProperties({mapScaleProperty("bumpScale", 0.5f), detailTilingProperty()}),
+            .inputs = {.mesh = "quad",
+                       .albedo = "marble-albedo.png",
+                       .normal = "marble-heights.png",
+                       .detail = "marble-detail.png",
+                       .detailImport = {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5}},
+            .camera = {.position = {0.0f, 0.9f, -0.75f}},
+            .draw = [](const Scene& s) {
+                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
+                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
+                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, s.normalMap,
+                                         s.number("bumpScale")});
+            }};
+}
+
+}  // namespace relief::samples

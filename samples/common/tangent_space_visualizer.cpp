@@ -1,0 +1,83 @@
+#include "common/tangent_space_visualizer.h"
+
+#include <cmath>
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+};
+
+struct LineVertexProgram
+{
+    ObjectTransform world;  // not `object`: lines have no tangent space of their own to show
+
+    Interpolators operator()(VertexData v) const { return {UnityObjectToClipPos(world, v.position)}; }
+};
+
+struct LineFragmentProgram
+{
+    float3 color;
+
+    float4 operator()(Interpolators) const { return float4(color, 1); }
+};
+
+glm::vec3 cross(const glm::vec3& a, const glm::vec3& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+glm::vec3 normalized(const glm::vec3& v)
+{
+    const float square = v.x * v.x + v.y * v.y + v.z * v.z;
+    return square > 0.0f ? v * (1.0f / std::sqrt(square)) : v;
+}
+
+// What Gizmos.DrawLine collects, in one colour.
+struct Lines
+{
+    Mesh mesh;
+
+    void DrawLine(const glm::vec3& from, const glm::vec3& to)
+    {
+        for (const glm::vec3& end : {from, to}) {
+            mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+            mesh.positions.push_back(end);
+        }
+    }
+};
+
+}  // namespace
+
+void TangentSpaceVisualizer::ShowTangentSpace(const Scene& s, const Mesh& mesh, const glm::mat4& worldFromObject) const
+{
+    const glm::mat3 directions(worldFromObject);
+    const glm::mat3 normalFromObject = normalMatrix(directions);
+    const float mirrored = mirrorSign(worldFromObject);
+    Lines normals, tangents, binormals;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::vec3 normal = normalized(normalFromObject * mesh.normals[i]);
+        const glm::vec3 tangent = normalized(directions * glm::vec3(mesh.tangents[i]));
+        const glm::vec3 binormal = cross(normal, tangent) * (mesh.tangents[i].w * mirrored);
+        const glm::vec3 vertex = glm::vec3(worldFromObject * glm::vec4(mesh.positions[i], 1.0f)) + normal * offset;
+        normals.DrawLine(vertex, vertex + normal * scale);
+        tangents.DrawLine(vertex, vertex + tangent * scale);
+        binormals.DrawLine(vertex, vertex + binormal * scale);
+    }
+
+    constexpr RenderState kLines = {.primitive = Primitive::lines};
+    const LineVertexProgram program{s.object(glm::mat4(1.0f))};
+    s.draw<kLines>(s.keep(std::move(normals.mesh)), program, LineFragmentProgram{{0, 1, 0}});
+    s.draw<kLines>(s.keep(std::move(tangents.mesh)), program, LineFragmentProgram{{1, 0, 0}});
+    s.draw<kLines>(s.keep(std::move(binormals.mesh)), program, LineFragmentProgram{{0, 0, 1}});
+}
+
+}  // namespace relief::samples

@@ -1,0 +1,89 @@
+#include "page_diff.h"
+
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+namespace pages {
+
+namespace {
+
+constexpr const char* kBegin = "<!-- difference -->\n";
+constexpr const char* kEnd = "<!-- /difference -->";
+
+std::vector<std::string> comparedLines(const std::string& source)
+{
+    std::vector<std::string> lines;
+    std::stringstream stream(source);
+    bool inHead = true;
+    for (std::string line; std::getline(stream, line);) {
+        inHead = inHead && line.starts_with("//");
+        const std::string text = line.substr(std::min(line.size(), line.find_first_not_of(' ')));
+        const bool named = line.starts_with("Stage ") || text.starts_with("return {.title") ||
+                           text.starts_with(".title") || text.starts_with(".section") || text.starts_with(".news");
+        if (!inHead && !named) lines.push_back(line);
+    }
+    return lines;
+}
+
+struct Line
+{
+    char mark;  // ' ', '-' or '+'
+    std::string text;
+};
+
+// By the longest common subsequence: length[i][j] is that of before[i...] and after[j...].
+std::vector<Line> edits(const std::vector<std::string>& before, const std::vector<std::string>& after)
+{
+    const std::size_t rows = before.size(), columns = after.size();
+    std::vector<std::vector<int>> length(rows + 1, std::vector<int>(columns + 1, 0));
+    for (std::size_t i = rows; i-- > 0;) {
+        for (std::size_t j = columns; j-- > 0;) {
+            length[i][j] =
+                before[i] == after[j] ? length[i + 1][j + 1] + 1 : std::max(length[i + 1][j], length[i][j + 1]);
+        }
+    }
+    std::vector<Line> result;
+    std::size_t i = 0, j = 0;
+    while (i < rows || j < columns) {
+        if (i < rows && j < columns && before[i] == after[j]) {
+            result.push_back({' ', before[i++]});
+            ++j;
+        } else if (j == columns || (i < rows && length[i + 1][j] >= length[i][j + 1])) {
+            result.push_back({'-', before[i++]});
+        } else {
+            result.push_back({'+', after[j++]});
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string difference(const std::string& before, const std::string& after)
+{
+    constexpr std::size_t context = 2;
+    const std::vector<Line> lines = edits(comparedLines(before), comparedLines(after));
+    std::string text;
+    bool gap = false;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const std::size_t first = i >= context ? i - context : 0, last = std::min(i + context, lines.size() - 1);
+        bool near = false;
+        for (std::size_t k = first; k <= last; ++k) near = near || lines[k].mark != ' ';
+        if (near) {
+            if (gap && !text.empty()) text += "@@\n";
+            text += lines[i].mark + lines[i].text + "\n";
+        }
+        gap = !near;
+    }
+    return text;
+}
+
+std::optional<std::string> withDifference(const std::string& page, const std::string& difference)
+{
+    const std::size_t begin = page.find(kBegin), end = page.find(kEnd);
+    if (begin == std::string::npos || end == std::string::npos || end < begin) return std::nullopt;
+    return page.substr(0, begin) + kBegin + "```diff\n" + difference + "```\n" + page.substr(end);
+}
+
+}  // namespace pages
