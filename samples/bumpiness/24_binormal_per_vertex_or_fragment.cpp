@@ -1,6 +1,8 @@
 // 1.24 Binormal per vertex or fragment: Rendering 6 "Bumpiness", section 4.4
 // New: one source for both: BINORMAL_PER_FRAGMENT decides where the binormal is computed.
 // Was: the binormal in the fragment program only (1.23).
+#include <utility>
+
 #include "common/stage.h"
 
 namespace relief::samples {
@@ -124,21 +126,16 @@ struct ShowDifference
     }
 };
 
+// Both programs of a variant, for the shape at x.
 template <bool BINORMAL_PER_FRAGMENT>
-MyFragmentProgram<BINORMAL_PER_FRAGMENT> fragmentProgram(const Scene& s, const ObjectTransform& object)
+auto programsAt(const Scene& s, float x)
 {
-    return MyFragmentProgram<BINORMAL_PER_FRAGMENT>{s.vector("tint"),
-                                                    s.number("metallic"),
-                                                    s.number("smoothness"),
-                                                    s.worldSpaceCameraPos,
-                                                    s.light,
-                                                    s.mainTex,
-                                                    s.detailTex,
-                                                    s.normalMap,
-                                                    s.detailNormalMap,
-                                                    object.unity_WorldTransformParams,
-                                                    s.number("bumpScale"),
-                                                    s.number("detailBumpScale")};
+    const ObjectTransform object = s.object(translation({x, 0, 0}));
+    return std::pair(MyVertexProgram<BINORMAL_PER_FRAGMENT>{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
+                     MyFragmentProgram<BINORMAL_PER_FRAGMENT>{
+                         s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos, s.light,
+                         s.mainTex, s.detailTex, s.normalMap, s.detailNormalMap, object.unity_WorldTransformParams,
+                         s.number("bumpScale"), s.number("detailBumpScale")});
 }
 
 }  // namespace
@@ -154,20 +151,14 @@ Stage bumpiness_24_binormal_per_vertex_or_fragment()
         .inputs = detailedMarble("low-sphere"),
         .camera = {.position = {0.0f, 0.35f, -2.9f}},
         .draw = [](const Scene& s) {
-            const float variant = s.number("binormalPerFragment")[0];
-            const auto at = [&](float x) { return s.object(translation({variant == 2.0f ? x : 0.0f, 0, 0})); };
-            const float4 main = s.vector("mainTex_ST"), detail = s.vector("detailTex_ST");
-            const ObjectTransform left = at(-1.1f), middle = at(0.0f), right = at(1.1f);
-            if (variant != 1.0f) {
-                s.draw(s.mesh, MyVertexProgram<false>{left, main, detail}, fragmentProgram<false>(s, left));
-            }
-            if (variant != 0.0f) {
-                s.draw(s.mesh, MyVertexProgram<true>{middle, main, detail}, fragmentProgram<true>(s, middle));
-            }
-            if (variant == 2.0f) {
-                s.draw(s.mesh, MyVertexProgram<false>{right, main, detail},
-                       ShowDifference{fragmentProgram<false>(s, right), fragmentProgram<true>(s, right),
-                                      s.number("exaggeration")});
+            const auto [leftVertex, perVertex] = programsAt<false>(s, -1.1f);
+            const auto [middleVertex, perFragment] = programsAt<true>(s, 0.0f);
+            const auto rightVertex = programsAt<false>(s, 1.1f).first;
+            const float which = s.number("binormalPerFragment")[0];
+            if (which != 1.0f) s.draw(s.mesh, leftVertex, perVertex);
+            if (which != 0.0f) s.draw(s.mesh, middleVertex, perFragment);
+            if (which == 2.0f) {
+                s.draw(s.mesh, rightVertex, ShowDifference{perVertex, perFragment, s.number("exaggeration")});
             }
         }};
 }

@@ -230,7 +230,7 @@ Property detailTilingProperty()
 
 Property binormalPerFragmentProperty(float value)
 {
-    return {"binormalPerFragment", glm::vec4(value), 0.0f, 2.0f, 1, "0: per vertex, 1: per fragment"};
+    return {"binormalPerFragment", glm::vec4(value), 0.0f, 2.0f, 1, "0: per vertex, 1: per fragment, 2: both (1.24)"};
 }
 
 ImportSettings normalMapSettings(float bumpiness, bool fadeOutMips)
