@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -220,6 +221,16 @@ TEST_CASE("command line: real files of Debian's glmark2-data")
     CHECK(run(folder.path, "render 1.01 --size 64x36 -o b.png --mesh /usr/share/glmark2/models/bunny.obj").code == 0);
     CHECK(fs::file_size(folder.path / "a.png") > 1000);
     CHECK(fs::file_size(folder.path / "b.png") > 1000);
+    for (const std::string normal : {"asteroid-normal-map-tangent.png", "terrain-grasslight-512-nm.jpg"}) {
+        const std::string files = " --size 64x36 --albedo none --detail none --detail-normal none --normal " +
+                                  (data / "textures" / normal).string();
+        const std::string onSphere = run(folder.path, "hash 1.21" + files).out;
+        const std::string onBunny =
+            run(folder.path, "hash 1.21 --mesh " + (data / "models/bunny.obj").string() + files).out;
+        CHECK(onSphere.size() > 16);
+        CHECK(onBunny.size() > 16);
+        CHECK(run(folder.path, "hash 1.21" + files + " --set bumpScale=0").out != onSphere);
+    }
 }
 
 TEST_CASE("command line: the window opens, shows frames and closes under SDL's dummy driver")
@@ -259,9 +270,92 @@ TEST_CASE("command line: bumps of no height are the flat quad, and both ways to 
     };
     const std::string flat = hash("1.01");
     CHECK(flat.size() == 16);
-    for (const std::string stage : {"1.06", "1.07", "1.08", "1.09"}) CHECK(hash(stage + " --set bumpScale=0") == flat);
+    for (const std::string stage : {"1.06", "1.07", "1.08", "1.09", "1.12"})
+        CHECK(hash(stage + " --set bumpScale=0") == flat);
+    CHECK(hash("1.12 --normal none") == flat);
     CHECK(hash("1.09") != flat);
     CHECK(hash("1.09 --set crossProduct=1") == hash("1.09"));
+}
+
+TEST_CASE("command line: signature prints the two tables of the tutorial")
+{
+    const TemporaryFolder folder;
+    const std::string head =
+        "// Output signature:\n"
+        "//\n"
+        "// Name                 Index   Mask Register SysValue  Format   Used\n"
+        "// -------------------- ----- ------ -------- -------- ------- ------\n"
+        "// SV_POSITION              0   xyzw        0      POS   float   xyzw\n"
+        "// TEXCOORD                 0   xyzw        1     NONE   float   xyzw\n"
+        "// TEXCOORD                 1   xyz         2     NONE   float   xyz\n";
+    const std::string perVertex = head +
+                                  "// TEXCOORD                 2   xyz         3     NONE   float   xyz\n"
+                                  "// TEXCOORD                 3   xyz         4     NONE   float   xyz\n"
+                                  "// TEXCOORD                 4   xyz         5     NONE   float   xyz\n";
+    const std::string perFragment = head +
+                                    "// TEXCOORD                 2   xyzw        3     NONE   float   xyzw\n"
+                                    "// TEXCOORD                 4   xyz         4     NONE   float   xyz\n";
+    for (const std::string stage : {"1.24", "1.25"}) {
+        CHECK(run(folder.path, "signature " + stage + " --binormal vertex").out == perVertex);
+        CHECK(run(folder.path, "signature " + stage + " --binormal fragment").out == perFragment);
+        const bool fragment = relief::samples::kBinormalPerFragment;
+        CHECK(run(folder.path, "signature " + stage).out == (fragment ? perFragment : perVertex));
+    }
+    CHECK(run(folder.path, "signature 0.01").out.find("SV_POSITION") != std::string::npos);
+    checkRefused(folder.path, "signature 1.09 --binormal vertex", {"--binormal", "1.09", "leave it out"});
+    checkRefused(folder.path, "signature 1.24 --binormal pixel", {"--binormal"});
+}
+
+TEST_CASE("command line: import options change the normal map, and wrong ones are named")
+{
+    const TemporaryFolder folder;
+    const auto hash = [&](const std::string& options) {
+        return run(folder.path, "hash 1.11 --size 160x90 " + options).out;
+    };
+    const std::string usual = hash("");
+    CHECK(usual.size() > 16);
+    CHECK(hash("--import storage=dxt5nm --import filter=smooth --import bumpiness=0.05") == usual);
+    std::set<std::string> different = {usual};
+    for (const std::string option : {"storage=rgb", "storage=dxt5", "filter=sobel", "bumpiness=0.02", "heights=no"})
+        CHECK(different.insert(hash("--import " + option)).second);
+    checkRefused(folder.path, "render 1.11 --import storage=bc7", {"--import storage=bc7", "rgb, dxt5nm, dxt5"});
+    checkRefused(folder.path, "render 1.11 --import bumpiness=-1", {"bumpiness=-1", "0 to 16"});
+    checkRefused(folder.path, "render 1.11 --import bumpiness=nan", {"bumpiness=nan", "0 to 16"});
+    checkRefused(folder.path, "render 1.11 --import sharpness=1", {"sharpness", "storage="});
+    checkRefused(folder.path, "render 1.11 --import storage", {"storage"});
+}
+
+TEST_CASE("command line: tangents as lines over any stage")
+{
+    const TemporaryFolder folder;
+    for (const std::string stage : {"0.03", "1.06", "1.21", "1.25"}) {
+        const std::string plain = run(folder.path, "hash " + stage + " --size 160x90").out;
+        const std::string lines = run(folder.path, "hash " + stage + " --size 160x90 --show-tangents").out;
+        CHECK(plain.size() > 16);
+        CHECK(lines.size() == plain.size());
+        CHECK(lines != plain);
+    }
+    checkRefused(folder.path, "render 1.21 --show-tangents --tangent-scale -1", {"--tangent-scale"});
+}
+
+TEST_CASE("command line: explain names the pass that is left out because its light does not reach")
+{
+    const TemporaryFolder folder;
+    const std::string near = run(folder.path, "explain 0.07 --size 160x90").out;
+    CHECK(near.find("pass left out: the lamp does not reach the sphere") != std::string::npos);
+    CHECK(near.find("passes (draws)") != std::string::npos);
+    const Outcome json = run(folder.path, "explain 0.07 --size 160x90 --json");
+    const auto parsed = nlohmann::json::parse(json.out);
+    // Three objects with a base pass and two lights each, less what is left out.
+    CHECK(parsed["counts"]["passes (draws)"].get<int>() == 9 - static_cast<int>(parsed["notes"].size()));
+}
+
+TEST_CASE("command line: none in place of a picture leaves it out")
+{
+    const TemporaryFolder folder;
+    const std::string with = run(folder.path, "hash 1.13 --size 160x90").out;
+    CHECK(run(folder.path, "hash 1.13 --size 160x90 --albedo none").out != with);
+    checkRefused(folder.path, "render 1.01 --detail-normal x.png", {"--detail-normal", "reads no detail-normal"});
 }
 
 TEST_CASE("command line: the gallery has every picture and a page that names them")

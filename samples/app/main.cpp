@@ -25,6 +25,11 @@ void addInputOptions(CLI::App& command, RenderOptions& options)
     command.add_option("--detail", options.files.detail, "A detail albedo (sRGB)")->type_name("FILE");
     command.add_option("--detail-normal", options.files.detailNormal, "A detail normal map (+Y), or its heights")
         ->type_name("FILE");
+    command
+        .add_option("--import", options.files.import,
+                    "How normal maps are imported; may be repeated: storage=rgb|dxt5nm|dxt5, bumpiness=0.05, "
+                    "filter=smooth|sobel, heights=automatic|yes|no, fade=on|off")
+        ->type_name("NAME=VALUE");
     command.add_flag("--show-tangents", options.showTangents, "Normals green, tangents red, binormals blue, as lines");
     command.add_option("--tangent-scale", options.tangentScale, "How long those lines are")
         ->check(CLI::Range(0.0f, 10.0f))

@@ -65,6 +65,7 @@ Expected<void> Viewer::open(std::size_t stage, bool keepSettings)
     if (!opened) return tl::unexpected(opened.error());
     Expected<PreparedStage> before = PreparedStage::prepare(allStages()[stage == 0 ? 0 : stage - 1]);
     if (!before) return tl::unexpected(before.error());
+    if (options.showTangents) opened->tangentLines = {options.tangentOffset, options.tangentScale};
     index = stage;
     current = std::move(*opened);
     previous = std::move(*before);

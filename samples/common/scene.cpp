@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "common/assets.h"
+#include "common/import_options.h"
 #include "common/tangent_space_visualizer.h"
 #include "mesh/tangents.h"
 
@@ -88,12 +89,16 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
         loaded->objects = arranged(inputs.mesh.empty() ? "quad" : inputs.mesh);
     }
     const ImportSettings albedo = {}, heights = {.colorSpace = ColorSpace::linear};
+    const Expected<ImportSettings> normal = withOptions(inputs.normalImport, files.import);
+    const Expected<ImportSettings> detailNormal = withOptions(inputs.detailNormalImport, files.import);
+    if (!normal) return tl::unexpected(normal.error());
+    if (!detailNormal) return tl::unexpected(detailNormal.error());
     const Expected<void> results[] = {
         load("albedo", inputs.albedo, files.albedo, albedo, loaded->albedo),
         load("height", inputs.height, files.height, heights, loaded->height),
-        load("normal", inputs.normal, files.normal, inputs.normalImport, loaded->normal),
+        load("normal", inputs.normal, files.normal, *normal, loaded->normal),
         load("detail", inputs.detail, files.detail, inputs.detailImport, loaded->detail),
-        load("detail-normal", inputs.detailNormal, files.detailNormal, inputs.detailNormalImport, loaded->detailNormal),
+        load("detail-normal", inputs.detailNormal, files.detailNormal, *detailNormal, loaded->detailNormal),
     };
     for (const Expected<void>& result : results) {
         if (!result) return tl::unexpected(result.error());

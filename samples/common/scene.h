@@ -46,10 +46,11 @@ struct Inputs
     ImportSettings detailNormalImport = normalMapSettings(0.1f);
 };
 
-// The user's files in place of the defaults; empty: the default.
+// The user's files in place of the defaults; empty: the default, "none": nothing. And how to import normal maps.
 struct InputFiles
 {
     std::string mesh, albedo, height, normal, detail, detailNormal;
+    std::vector<std::string> import;  // see import_options.h
 };
 
 // A mesh and where it stands.
