@@ -1,10 +1,14 @@
 // Normal maps baked from geometry: vectors that are known by algebra, and what happens where nothing is to be baked.
 #include "mesh/bake.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -129,6 +130,17 @@ TEST_CASE("bake_error: other tangents, other binormals and other lengths all sho
     CHECK(cleaned.mean > 0.1);
     CHECK(unsynched.mean > 0.1);
     CHECK(exactTangents.mean > 0.1);
+}
+
+TEST_CASE("bake_error: a picture that repeats within one triangle is measured once")
+{
+    Mesh quad = makeQuad();
+    for (glm::vec2& uv : quad.uvs) uv = uv * 3.0f;
+    BakeOptions options;
+    options.width = options.height = 8;
+    const BakedNormalMap map = *bakeNormalMap(quad, makeQuad(), options);
+    CHECK(map.hits == 64);
+    CHECK(errorOf(map, quad).max == 0.0);
 }
 
 TEST_CASE("bake_error: a mesh with its vertices in another order is the same mesh, one with other uvs is not")

@@ -2,6 +2,7 @@
 // turn.
 #include "mesh/ray_tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>

@@ -90,6 +90,8 @@ TEST_CASE("tangent_frame: frames without volume, and directions without length, 
     CHECK(encoded(up, TangentFrame{}) == up);
     CHECK(encoded(up, TangentFrame{{1, 0, 0}, {1, 0, 0}, {0, 0, 1}}) == up);
     CHECK(encoded(up, TangentFrame{{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}) == up);
+    CHECK(encoded({0, 1, 0}, TangentFrame{{1, 0, 0}, {1, 1e-12, 0}, {0, 0, 1}}) == up);  // flat but for rounding
+    CHECK(encoded({0, 1, 0}, TangentFrame{{1e-9, 0, 0}, {0, 1e-9, 0}, {0, 0, 1}}) == glm::dvec3(0, 1, 0));  // small
     CHECK(encoded(glm::dvec3(0), TangentFrame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) == up);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(encoded(up, TangentFrame{{nan, 0, 0}, {0, 1, 0}, {0, 0, 1}}) == up);

@@ -1,6 +1,7 @@
 // Texels that triangles cover: counts known by algebra, no gap and no overlap along edges, wrapping.
 #include "mesh/texels.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -51,6 +52,26 @@ TEST_CASE("texels: weights give back the centre, whichever way the triangle turn
         });
         CHECK(visited > 150);
     }
+}
+
+TEST_CASE("texels: an edge function is the same number from both sides, for any rounding")
+{
+    std::uint64_t state = 1;
+    const auto next = [&] {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return static_cast<double>(state >> 11) * 0x1p-43;
+    };
+    const auto point = [&] {
+        const double x = next(), y = next();
+        return glm::dvec2(x, y);
+    };
+    int different = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec2 a = point(), b = point();
+        const glm::dvec2 between = a + (b - a) * 0.3;  // where only the rounding decides
+        different += detail::edgeFunction(a, b, between) != -detail::edgeFunction(b, a, between);
+    }
+    CHECK(different == 0);
 }
 
 TEST_CASE("texels: a picture cut into triangles has no gap, at any size and anywhere")
