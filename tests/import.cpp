@@ -19,7 +19,7 @@ TEST_CASE("import: opposite normals make a flat level, zero vectors too (S-618)"
     CHECK(holds(importTexture(opposite, normalMap())->level(1).texel<std::uint8_t>(0, 0), 128, 128, 255, 255));
 }
 
-TEST_CASE("import: automatic takes grey pictures for heights and others for normals; both can be forced")
+TEST_CASE("import: automatic takes grey pictures for heights and others for normals, and both can be forced")
 {
     using From = ImportSettings::FromGreyscale;
     const Image8 grey = pictureBy(8, 8, [](int x, int y, int) { return 20 * x + y; });
@@ -36,7 +36,8 @@ TEST_CASE("import: automatic takes grey pictures for heights and others for norm
     // A file of unit normals comes through within a code.
     const Image8 unit = onlyColour(2, 2, 204, 128, 230, 255);  // (0.6, 0, 0.8)
     const MipLevel back = level(unit, From::no);
-    for (int c = 0; c < 3; ++c) CHECK(std::abs(back.texel<std::uint8_t>(0, 0)[c] - unit.pixels[c]) <= 1);
+    for (int c = 0; c < 3; ++c)
+        CHECK(std::abs(back.texel<std::uint8_t>(0, 0)[c] - unit.pixels[static_cast<std::size_t>(c)]) <= 1);
 }
 
 TEST_CASE("import: 16-bit heights are not rounded to 8 bits first")
@@ -140,4 +141,29 @@ TEST_CASE("import: nothing is made before it is sampled, and no more than that")
         CHECK(texture.levelsBuilt() == 3);
     }
     CHECK(importTexture(onlyColour(1, 1, 7, 7, 7, 7), normalMap())->levelsBuilt() == 1);
+}
+
+TEST_CASE("import: every level has these very bytes with every compiler")
+{
+    // FNV-1a, 64 bits, over all levels.
+    const auto hashOf = [](const std::string& path, const ImportSettings& settings) {
+        const Texture texture = *importTexture(pictureOf(path), settings);
+        std::uint64_t hash = 0xcbf29ce484222325u;
+        for (int k = 0; k < texture.levelCount(); ++k) {
+            const MipLevel& level = texture.level(k);
+            const auto bytes = static_cast<std::size_t>(level.width() * bytesPerTexel(texture.format()));
+            for (int y = 0; y < level.height(); ++y) {
+                const auto* row = reinterpret_cast<const unsigned char*>(level.texel<std::uint8_t>(0, 0)) +
+                                  static_cast<std::size_t>(y) * level.rowBytes();
+                for (std::size_t i = 0; i < bytes; ++i) hash = (hash ^ row[i]) * 0x100000001b3u;
+            }
+        }
+        return hash;
+    };
+    ImportSettings sobel = normalMap(Storage::rgb, 0.03f), blocks = normalMap(Storage::dxt5);
+    sobel.normalFilter = NormalFilter::sobel;
+    blocks.fadeOutMips = true;
+    CHECK(hashOf(kHeights, sobel) == 0x5f145f5e74ae013du);
+    CHECK(hashOf(kHeights, blocks) == 0x6627e9b31c58e508u);
+    CHECK(hashOf(kAlbedo, {.storage = Storage::dxt5, .fadeOutMips = true}) == 0x10098a03f9094143u);
 }

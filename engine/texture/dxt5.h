@@ -26,7 +26,7 @@ using Dxt5Block = std::array<std::uint8_t, 16>;
 using Dxt5Texels = std::array<std::uint8_t, 64>;  // RGBA, 4 rows of 4 in the block's order
 
 // The same texels give the same block with every compiler. A block of one colour comes back within 1 of it; exactly,
-// what is 0 or 255 in a whole block, and an alpha that is constant there.
+// what is 0 or 255 in the whole block, and an alpha that is constant there.
 Dxt5Block encodeDxt5Block(const Dxt5Texels& texels);
 Dxt5Texels decodeDxt5Block(const Dxt5Block& block);
 

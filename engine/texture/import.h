@@ -62,7 +62,7 @@ struct ImportSettings
 };
 
 // The texture of a picture in memory. No level exists before it is sampled (except that of a 1x1 texture), and the
-// picture is released when level 0 does. Level k of a normal map is the area average of the normals of level 0, made
+// picture is released once level 0 is made. Level k of a normal map is the area average of the normals of level 0, made
 // unit length, then faded, then stored; colours are averaged in linear light.
 // `picture` is not null. An error when a setting is out of range or does not fit the picture, or the picture has no
 // possible size.
