@@ -64,7 +64,7 @@ TEST_CASE("lights: S-801 a light on the surface has no direction, and lights not
     CHECK(isFinite(lane(Shade4PointLights(lampAt({0, 0, 0}, 1.0f), {0, 0, 0}, {0, 1, 0}))));
 }
 
-TEST_CASE("lights: a spot shines within its cone; S-818 and not behind itself")
+TEST_CASE("lights: a spot shines within its cone, S-818 and not behind itself")
 {
     CHECK(strength(kSpot, {0, 0, 1}) == doctest::Approx(strength(kLamp, {0, 0, 1})));
     CHECK(strength(kSpot, {0.75f, 0, 1}) == 0.0f);  // cosine 0.8: the border
@@ -106,7 +106,7 @@ TEST_CASE("lights: a light is said not to reach only what it does not light")
     CHECK(unreached > 1000);
 }
 
-TEST_CASE("lights: S-817 a light per vertex has 1/26 left at its range; with the window it has none")
+TEST_CASE("lights: S-817 a light per vertex has 1/26 left at its range, with the window it has none")
 {
     const auto at = [](float distance, bool window) {
         return Shade4PointLights(lampAt({0, distance, 0}, 2.0f), {0, 0, 0}, {0, 1, 0}, window).x[0];

@@ -31,9 +31,9 @@ struct SpotLight
     float3 color;
     float3 position;
     Float range;
-    float3 axis;      // from the light, unit length
-    Float cosOuter;   // of half the cone's angle: 0 at the cone, and 1 ...
-    Float cosInner;   // ... within this one
+    float3 axis;     // from the light, unit length
+    Float cosOuter;  // of half the cone's angle: 0 at the cone, and 1 ...
+    Float cosInner;  // ... within this one
 };
 
 namespace detail {

@@ -17,9 +17,9 @@ inline Float usableScale(Float scale)
 
 }  // namespace detail
 
-// Decodes a DXT5nm texel: x in alpha, y in green, both as code * 2 - 1, scaled by bumpScale; z from x^2 + y^2 + z^2 = 1.
-// Where x and y alone are longer than 1, from filtering, rounding or the scale, z is 0: the result is then not of unit
-// length, and whoever uses it normalises. bumpScale 0 gives exactly (0, 0, 1).
+// Decodes a DXT5nm texel: x in alpha, y in green, both as code * 2 - 1, scaled by bumpScale; z from x^2 + y^2 + z^2
+// = 1. Where x and y alone are longer than 1, from filtering, rounding or the scale, z is 0: the result is then not of
+// unit length, and whoever uses it normalises. bumpScale 0 gives exactly (0, 0, 1).
 inline float3 UnpackScaleNormal(const float4& packednormal, Float bumpScale)
 {
     const Float scale = detail::usableScale(bumpScale);

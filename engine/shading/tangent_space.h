@@ -25,6 +25,15 @@ inline float3 TangentSpaceToWorld(const float3& tangentSpaceNormal, const float3
     return normalize(tangent * tangentSpaceNormal.x + binormal * tangentSpaceNormal.y + normal * tangentSpaceNormal.z);
 }
 
+// What a shader does that cleans its frame up in every fragment (Unity's UNITY_TANGENT_ORTHONORMALIZE): both of unit
+// length, and at a right angle. A normal map that was baked for MikkTSpace is then decoded in another frame than its
+// own.
+inline void Orthonormalise(float3& normal, float3& tangent)
+{
+    normal = normalize(normal);
+    tangent = normalize(tangent - normal * dot(normal, tangent));
+}
+
 // A unit tangent that is perpendicular to a unit normal where the given one is of no use: zero, not a number, or within
 // 1e-3 rad of the normal. The substitute is Duff et al.'s branch-free basis (JCGT 2017). Elsewhere `tangent`,
 // orthonormalised. For meshes of unknown origin; the tutorials' stages do not need it.

@@ -61,10 +61,7 @@ struct MyFragmentProgram
         const float3 tangentSpaceNormal = BlendNormals(mainNormal, detailNormal);
 
         float3 tangent = i.tangent.xyz();
-        if (renormalise) {
-            i.normal = normalize(i.normal);
-            tangent = normalize(tangent - i.normal * dot(i.normal, tangent));
-        }
+        if (renormalise) Orthonormalise(i.normal, tangent);
         const float3 binormal = cross(i.normal, tangent) * (i.tangent.w * unity_WorldTransformParams.w);
         i.normal = normalize(tangent * tangentSpaceNormal.x + binormal * tangentSpaceNormal.y +
                              i.normal * tangentSpaceNormal.z);
@@ -97,19 +94,20 @@ Stage bumpiness_23_synched_tangent_space()
             .camera = {.position = {0.0f, 0.4f, -3.7f}},
             .draw = [](const Scene& s) {
                 const BakedSphere& baked = bakedSphere();
-                const sampler2D none = {.texture = &Texture::flatNormal()}, map = {.texture = &baked.normalMap};
-                const auto draw = [&](const Mesh& mesh, const sampler2D& normalMap, bool renormalise, float x) {
-                    const ObjectTransform object = s.object(translation({x, 0, 0}));
+                const sampler2D map = {.texture = &baked.normalMap};
+                const ObjectTransform object = s.object(glm::mat4(1.0f));
+                const auto draw = [&](const Mesh& mesh, const sampler2D& normalMap, bool renormalise, int column) {
+                    s.cutColumn(column, 4);
                     s.draw(mesh, MyVertexProgram{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
                            MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
                                              s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, normalMap,
                                              s.detailNormalMap, object.unity_WorldTransformParams, 1.0f, 1.0f,
                                              renormalise});
                 };
-                draw(baked.high, none, false, -1.65f);
-                draw(baked.low, map, false, -0.55f);
-                draw(baked.otherTangents, map, false, 0.55f);
-                draw(baked.low, map, true, 1.65f);
+                draw(baked.high, s.normalMap, false, 0);
+                draw(baked.low, map, false, 1);
+                draw(baked.otherTangents, map, false, 2);
+                draw(baked.low, map, true, 3);
                 for (const std::string& line : baked.measured) s.note(line);
             }};
 }

@@ -126,11 +126,11 @@ struct ShowDifference
     }
 };
 
-// Both programs of a variant, for the shape at x.
+// Both programs of a variant.
 template <bool BINORMAL_PER_FRAGMENT>
-auto programsAt(const Scene& s, float x)
+auto programs(const Scene& s)
 {
-    const ObjectTransform object = s.object(translation({x, 0, 0}));
+    const ObjectTransform object = s.object(s.objects[0].worldFromObject);
     return std::pair(MyVertexProgram<BINORMAL_PER_FRAGMENT>{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
                      MyFragmentProgram<BINORMAL_PER_FRAGMENT>{
                          s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos, s.light,
@@ -149,16 +149,18 @@ Stage bumpiness_24_binormal_per_vertex_or_fragment()
         .properties = detailedProperties({binormalPerFragmentProperty(2.0f),
                                           {"exaggeration", glm::vec4(5.0f), 1.0f, 1000.0f, 1, "of the difference"}}),
         .inputs = detailedMarble("low-sphere"),
-        .camera = {.position = {0.0f, 0.35f, -2.9f}},
+        .camera = {.position = {0.0f, 0.35f, -2.5f}},
         .draw = [](const Scene& s) {
-            const auto [leftVertex, perVertex] = programsAt<false>(s, -1.1f);
-            const auto [middleVertex, perFragment] = programsAt<true>(s, 0.0f);
-            const auto rightVertex = programsAt<false>(s, 1.1f).first;
+            const auto [vertex, perVertex] = programs<false>(s);
+            const auto [fragmentVertex, perFragment] = programs<true>(s);
             const float which = s.number("binormalPerFragment")[0];
-            if (which != 1.0f) s.draw(s.mesh, leftVertex, perVertex);
-            if (which != 0.0f) s.draw(s.mesh, middleVertex, perFragment);
+            if (which == 2.0f) s.cutColumn(0, 3);
+            if (which != 1.0f) s.draw(s.mesh, vertex, perVertex);
+            if (which == 2.0f) s.cutColumn(1, 3);
+            if (which != 0.0f) s.draw(s.mesh, fragmentVertex, perFragment);
             if (which == 2.0f) {
-                s.draw(s.mesh, rightVertex, ShowDifference{perVertex, perFragment, s.number("exaggeration")});
+                s.cutColumn(2, 3);
+                s.draw(s.mesh, vertex, ShowDifference{perVertex, perFragment, s.number("exaggeration")});
             }
         }};
 }

@@ -132,6 +132,7 @@ Scene::Scene(Frame& target, SceneLog& sceneLog, int w, int h, const Camera& came
       usersMesh(inputs.usersMesh.has_value()),
       clipFromWorld(clipFromView(camera, static_cast<float>(w) / static_cast<float>(h)) * viewFromWorld(camera))
 {
+    cutStrip(0.0f, 1.0f);
     for (const Property& p : properties) values[p.name] = p.value;
     const auto angle = [this](const char* name) { return values.count(name) != 0 ? values.at(name).x : 0.0f; };
     light.color = float3(1.0f, 0.957f, 0.839f);  // Unity's default directional light, intensity 1
@@ -169,15 +170,16 @@ void Scene::note(const std::string& line) const
 
 void Scene::showTangents(const TangentSpaceVisualizer& visualizer) const
 {
-    std::vector<Object> shown;
-    for (const Object& o : std::vector<Object>(log.drawn)) {
+    const std::vector<SceneLog::Drawn> all = log.drawn;
+    for (auto d = all.begin(); d != all.end(); ++d) {
         // Every pass of an object draws it again, but its tangent space is the same.
-        const auto same = [&o](const Object& other) {
-            return o.mesh == other.mesh && o.worldFromObject == other.worldFromObject;
+        const auto same = [&d](const SceneLog::Drawn& other) {
+            return d->object.mesh == other.object.mesh && d->object.worldFromObject == other.object.worldFromObject &&
+                   d->viewport.x == other.viewport.x && d->scissor.x0 == other.scissor.x0;
         };
-        if (std::any_of(shown.begin(), shown.end(), same)) continue;
-        shown.push_back(o);
-        visualizer.ShowTangentSpace(*this, withTangents(*o.mesh), o.worldFromObject);
+        if (std::any_of(all.begin(), d, same)) continue;
+        cut(d->viewport, d->scissor);
+        visualizer.ShowTangentSpace(*this, *d->object.mesh, d->object.worldFromObject);
     }
 }
 
@@ -198,10 +200,24 @@ const Mesh& Scene::withTangents(const Mesh& plain) const
     return *made;
 }
 
+void Scene::cut(const Viewport& viewport, const Rectangle& scissor) const
+{
+    log.viewport = viewport;
+    log.scissor = scissor;
+    frame.setViewport(viewport);
+    frame.setScissor(scissor);
+}
+
 void Scene::cutStrip(float from, float to) const
 {
     const auto column = [this](float part) { return static_cast<int>(part * static_cast<float>(width) + 0.5f); };
-    frame.setScissor({column(from), 0, column(to), height});
+    cut({0, 0, width, height}, {column(from), 0, column(to), height});
+}
+
+void Scene::cutColumn(int column, int count) const
+{
+    const int from = column * width / count, to = (column + 1) * width / count;
+    cut({(from + to - width) / 2, 0, width, height}, {from, 0, to, height});
 }
 
 std::vector<Property> litProperties(std::vector<Property> more)

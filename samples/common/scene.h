@@ -74,10 +74,20 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
 // What a scene leaves behind when it is drawn, and what the frame still needs when it runs.
 struct SceneLog
 {
-    std::vector<Object> drawn;                              // every draw's mesh and matrix, in order
+    // Every draw's mesh and matrix, in order, and which part of the picture it went to.
+    struct Drawn
+    {
+        Object object;
+        Viewport viewport;
+        Rectangle scissor;
+    };
+    std::vector<Drawn> drawn;
     std::vector<std::string> notes;                         // what was left out, and what was measured; for explain
     std::deque<Mesh> kept;                                  // meshes that the scene made
     std::map<const Mesh*, std::unique_ptr<Mesh>> tangents;  // meshes that came without tangents, with them
+
+    Viewport viewport;  // of the next draws
+    Rectangle scissor;
 
     // For the next frame; tangents stay.
     void clear();
@@ -125,12 +135,19 @@ public:
     // Lines over everything drawn so far.
     void showTangents(const TangentSpaceVisualizer& visualizer) const;
 
+    // The next draws go into one of `count` columns of the picture, seen by the same camera in each: what stands at the
+    // origin looks the same in all of them.
+    void cutColumn(int column, int count) const;
+
     // For meshes that a stage makes: they live until the frame has run. And a line for explain.
     const Mesh& keep(Mesh made) const;
     void note(const std::string& line) const;
 
-private:
+    // The mesh, or, if it came without tangents, the same with tangents; computed once.
     const Mesh& withTangents(const Mesh& mesh) const;
+
+private:
+    void cut(const Viewport& viewport, const Rectangle& scissor) const;
     void leftOut(const std::string& name, const Object& object) const;
 
     SceneLog& log;
@@ -146,7 +163,7 @@ void Scene::draw(const Mesh& drawnMesh, const VertexProgram& vertexProgram,
     constexpr bool readsTangents = hasField<TANGENT, relief::detail::VertexDataFor<VertexProgram>>();
     if constexpr (requires { vertexProgram.object.worldFromObject; }) {
         const glm::mat4 worldFromObject = firstLane(vertexProgram.object.worldFromObject);
-        log.drawn.push_back({&drawnMesh, worldFromObject});
+        log.drawn.push_back({{&drawnMesh, worldFromObject}, log.viewport, log.scissor});
         frame.setFrontCounterClockwise(mirrorSign(worldFromObject) < 0.0f);
     }
     frame.draw<state>(readsTangents ? withTangents(drawnMesh) : drawnMesh, vertexProgram, fragmentProgram);

@@ -57,8 +57,9 @@ struct Lines
 
 }  // namespace
 
-void TangentSpaceVisualizer::ShowTangentSpace(const Scene& s, const Mesh& mesh, const glm::mat4& worldFromObject) const
+void TangentSpaceVisualizer::ShowTangentSpace(const Scene& s, const Mesh& shown, const glm::mat4& worldFromObject) const
 {
+    const Mesh& mesh = s.withTangents(shown);
     const glm::mat3 directions(worldFromObject);
     const glm::mat3 normalFromObject = normalMatrix(directions);
     const float mirrored = mirrorSign(worldFromObject);

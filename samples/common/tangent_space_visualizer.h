@@ -12,7 +12,7 @@ struct TangentSpaceVisualizer
     float offset = 0.01f;  // from the surface along the normal, so that lines of neighbouring faces do not overlap
     float scale = 0.1f;    // the lines' length
 
-    // The mesh must have tangents.
+    // A mesh without tangents gets them.
     void ShowTangentSpace(const Scene& s, const Mesh& mesh, const glm::mat4& worldFromObject) const;
 };
 

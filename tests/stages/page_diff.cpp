@@ -11,6 +11,11 @@ namespace {
 constexpr const char* kBegin = "<!-- difference -->\n";
 constexpr const char* kEnd = "<!-- /difference -->";
 
+std::string withoutIndentation(const std::string& line)
+{
+    return line.substr(std::min(line.size(), line.find_first_not_of(' ')));
+}
+
 std::vector<std::string> comparedLines(const std::string& source)
 {
     std::vector<std::string> lines;
@@ -18,9 +23,9 @@ std::vector<std::string> comparedLines(const std::string& source)
     bool inHead = true;
     for (std::string line; std::getline(stream, line);) {
         inHead = inHead && line.starts_with("//");
-        const std::string text = line.substr(std::min(line.size(), line.find_first_not_of(' ')));
-        const bool named = line.starts_with("Stage ") || text.starts_with("return {.title") ||
-                           text.starts_with(".title") || text.starts_with(".section") || text.starts_with(".news");
+        const std::string text = withoutIndentation(line);
+        const bool named = line.starts_with("Stage ") || text.starts_with("return {") || text.starts_with(".title") ||
+                           text.starts_with(".section") || text.starts_with(".news");
         if (!inHead && !named) lines.push_back(line);
     }
     return lines;
@@ -32,23 +37,25 @@ struct Line
     std::string text;
 };
 
-// By the longest common subsequence: length[i][j] is that of before[i...] and after[j...].
+// By the longest common subsequence: length[i][j] is that of before[i...] and after[j...]. A line that only moved to
+// the right or left has not changed.
 std::vector<Line> edits(const std::vector<std::string>& before, const std::vector<std::string>& after)
 {
     const std::size_t rows = before.size(), columns = after.size();
     std::vector<std::vector<int>> length(rows + 1, std::vector<int>(columns + 1, 0));
     for (std::size_t i = rows; i-- > 0;) {
         for (std::size_t j = columns; j-- > 0;) {
-            length[i][j] =
-                before[i] == after[j] ? length[i + 1][j + 1] + 1 : std::max(length[i + 1][j], length[i][j + 1]);
+            length[i][j] = withoutIndentation(before[i]) == withoutIndentation(after[j])
+                               ? length[i + 1][j + 1] + 1
+                               : std::max(length[i + 1][j], length[i][j + 1]);
         }
     }
     std::vector<Line> result;
     std::size_t i = 0, j = 0;
     while (i < rows || j < columns) {
-        if (i < rows && j < columns && before[i] == after[j]) {
-            result.push_back({' ', before[i++]});
-            ++j;
+        if (i < rows && j < columns && withoutIndentation(before[i]) == withoutIndentation(after[j])) {
+            result.push_back({' ', after[j++]});
+            ++i;
         } else if (j == columns || (i < rows && length[i + 1][j] >= length[i][j + 1])) {
             result.push_back({'-', before[i++]});
         } else {
