@@ -166,6 +166,20 @@ TEST_CASE("documents: the engine's folders include downwards only")
     CHECK(checked > 50);
 }
 
+TEST_CASE("documents: the engine's map names every file of it")
+{
+    const std::string map = contents(kSource / "engine/README.md");
+    for (const fs::path& path : filesEndingIn(kSource / "engine", ".h")) {
+        CAPTURE(path);
+        CHECK(map.find("`" + path.filename().string() + "`") != std::string::npos);
+    }
+    for (const fs::path& path : filesEndingIn(kSource / "engine", ".cpp")) {
+        CAPTURE(path);
+        CHECK((fs::exists(fs::path(path).replace_extension(".h")) ||
+               map.find("`" + path.filename().string() + "`") != std::string::npos));
+    }
+}
+
 TEST_CASE("documents: test names have no character that splits or joins CMake's lists")
 {
     // doctest_discover_tests would lose or merge tests, in silence.

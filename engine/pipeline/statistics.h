@@ -15,12 +15,12 @@ struct Statistics
 
     // submitted = culled + outside + droppedNan + droppedInfinite + droppedIndex + rasterised
     std::uint64_t trianglesSubmitted = 0;  // and lines, each counted once
-    std::uint64_t culledFacing = 0;     // by orientation, or of zero area after snapping
-    std::uint64_t culledNoSample = 0;   // no pixel centre inside their bounds, or outside the scissor
-    std::uint64_t outside = 0;          // wholly beyond a plane of the view volume, or clipped to nothing
-    std::uint64_t droppedNan = 0;       // a vertex position with a NaN
-    std::uint64_t droppedInfinite = 0;  // a vertex position with an infinity
-    std::uint64_t droppedIndex = 0;     // an index beyond the vertices
+    std::uint64_t culledFacing = 0;        // by orientation, or of zero area after snapping
+    std::uint64_t culledNoSample = 0;      // no pixel centre inside their bounds, or outside the scissor
+    std::uint64_t outside = 0;             // wholly beyond a plane of the view volume, or clipped to nothing
+    std::uint64_t droppedNan = 0;          // a vertex position with a NaN
+    std::uint64_t droppedInfinite = 0;     // a vertex position with an infinity
+    std::uint64_t droppedIndex = 0;        // an index beyond the vertices
     std::uint64_t rasterised = 0;
 
     std::uint64_t trianglesClipped = 0;  // of those submitted: cut at a plane
