@@ -298,3 +298,45 @@ TEST_CASE("shading pictures: an additive pass meets the same depth in every pixe
     run(true);
     for (std::size_t i = 0; i < base.color32f().size(); ++i) CHECK(target.color32f()[i] == base.color32f()[i] * 2.0f);
 }
+
+TEST_CASE("shading pictures: S-659 spheres of 3 to 1024 segments have no NaN at their poles")
+{
+    const Texture map = bumps();
+    for (const int segments : {3, 4, 5, 16, 100, 1024}) {
+        const Mesh own = makeSphere(segments, std::max(2, segments / 2));
+        const Expected<Mesh> computed = withTangents(own);
+        REQUIRE(computed.has_value());
+        for (const Mesh* mesh : {&own, &*computed}) {
+            Framebuffer target = makeTarget(96, 96);
+            Frame frame(target, {1, kDefaultTileSize});
+            frame.clear(glm::vec4(0.0f));
+            // From above: the pole is in the middle of the picture.
+            const glm::mat4 above = {{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}};
+            add(frame, *mesh, above, {{.texture = &map}, 1.0f, 4.0f, true, true});
+            const Statistics statistics = frame.run();
+            CHECK(statistics.invalidColors == 0);
+            CHECK(statistics.pixelsShaded > 100);
+            CHECK(target.color32f()[48 * 96 + 48].x > 0.0f);
+        }
+    }
+}
+
+TEST_CASE("shading pictures: S-607 heights half a texel away do not depend on the last bit of the coordinate")
+{
+    // At a texel's centre both samples lie on the border of two texels, where point filtering would tie.
+    std::vector<std::uint8_t> rgba;
+    for (int i = 0; i < 64 * 64; ++i) rgba.insert(rgba.end(), 4, static_cast<std::uint8_t>(i * 37 % 251));
+    const Expected<Texture> heights = Texture::fromRgba8(64, 64, rgba, ColorSpace::linear);
+    REQUIRE(heights.has_value());
+    const sampler2D map = {.texture = &*heights, .filter = Filter::bilinear, .mipmaps = false};
+    const float half = 0.5f / 64.0f;
+    activeLanes = kAllLanes;
+    for (int x = 2; x < 62; ++x) {
+        const float u = (static_cast<float>(x) + 0.5f) / 64.0f;
+        const auto slope = [&](float at) {
+            return (tex2D(map, float2(at - half, 0.3f)).x - tex2D(map, float2(at + half, 0.3f)).x)[0];
+        };
+        CHECK(slope(u) == slope(std::nextafter(u, 0.0f)));
+        CHECK(slope(u) == slope(std::nextafter(u, 1.0f)));
+    }
+}

@@ -140,3 +140,22 @@ TEST_CASE("tangent space: per vertex and per fragment differ as T-07 says, and n
         CHECK(angle(a, b) == doctest::Approx(difference).epsilon(1e-4));
     }
 }
+
+TEST_CASE("tangent space: S-661 where an edge bends by almost half a turn, the frame stays finite")
+{
+    const double degree = 3.14159265358979 / 180.0;
+    for (const double alpha : {90.0, 170.0, 179.9, 180.0}) {
+        const auto c = static_cast<float>(std::cos(alpha * degree / 2)),
+                   s = static_cast<float>(std::sin(alpha * degree / 2));
+        const float3 normal = {0, 0, c}, tangent = {c, 0, 0};  // half way between (s, 0, c) and (-s, 0, c)
+        for (const float sign : {-1.0f, 1.0f}) {
+            const float3 binormal = CreateBinormal(normal, tangent, sign, 1.0f);
+            const Vector v = lane(TangentSpaceToWorld({s * 0.5f, 0.3f, 0.8f}, tangent, binormal, normal));
+            REQUIRE(isFinite(v));
+            CHECK(length(v) == doctest::Approx(1.0).epsilon(1e-6));
+        }
+    }
+    // Opposite normals and tangents cancel altogether: no direction, and no NaN.
+    const float3 nothing = {0, 0, 0};
+    CHECK(length(lane(TangentSpaceToWorld({0.1f, 0.2f, 0.9f}, nothing, nothing, nothing))) == 0.0);
+}
