@@ -111,7 +111,8 @@ TEST_CASE("lighting: S-807 the highlight's peak, exact and as Unity's epsilon le
     const double rows[][3] = {{0.5, 5.09296, 5.09283},  {0.7, 39.2975, 39.2377}, {0.8, 198.944, 191.465},
                               {0.85, 628.760, 452.286}, {0.9, 3183.10, 289.373}, {0.95, 50929.6, 19.8866},
                               {1.0, 79577.5, 12.7304}};
-    for (const auto& [smoothness, exact, compat] : rows) {
+    for (const auto& row : rows) {
+        const double smoothness = row[0], exact = row[1], compat = row[2];
         CAPTURE(smoothness);
         CHECK(peakOfD(Form::exact, static_cast<float>(smoothness)) == doctest::Approx(exact).epsilon(2e-6));
         CHECK(peakOfD(Form::compat, static_cast<float>(smoothness)) == doctest::Approx(compat).epsilon(2e-3));
@@ -146,7 +147,8 @@ TEST_CASE("lighting: S-810 white furnace: the exact form loses a little, and nev
     const double rows[][3] = {{0.5, 1.0, 0.9158},  {0.5, 0.5, 0.8573},  {0.5, 0.1, 0.8941},
                               {0.75, 1.0, 0.9955}, {0.75, 0.5, 0.9888}, {0.75, 0.1, 0.8948},
                               {0.9, 1.0, 1.0},     {0.9, 0.5, 0.9997},  {0.9, 0.1, 0.9935}};
-    for (const auto& [smoothness, NdotV, expected] : rows) {
+    for (const auto& row : rows) {
+        const double smoothness = row[0], NdotV = row[1], expected = row[2];
         CAPTURE(smoothness);
         CAPTURE(NdotV);
         const double albedo = specularAlbedo(Form::exact, smoothness, NdotV);
