@@ -180,6 +180,9 @@ bool Scene::reaches(const std::string& name, const Light& source, const Object& 
 // The properties of Rendering 5's material, on which all of "Bumpiness" builds, and the light's two angles.
 std::vector<Property> litProperties(std::vector<Property> more = {});
 
+// Those of "Normal Maps": colours and exponent of Phong's lighting model, the scene's ambient light, and the light.
+std::vector<Property> phongProperties(const std::vector<Property>& more = {});
+
 // The height of the bumps: how many texels high the whole range of the height map is. Resolution changes the look
 // unless this grows with it, which is what the tutorial's "replace delta by 1" hides.
 Property bumpScaleProperty();
