@@ -311,6 +311,14 @@ TEST_CASE("mul: v M is transposed M v")
     CHECK(is(mul(transposed, v), row.x[0], row.y[0], row.z[0]));
 }
 
+TEST_CASE("transpose: rows become columns")
+{
+    const float3x3 m = transpose(kCounting3);
+    CHECK(is(m[0], 1.0f, 4.0f, 7.0f));
+    CHECK(is(m[1], 2.0f, 5.0f, 8.0f));
+    CHECK(is(m[2], 3.0f, 6.0f, 9.0f));
+}
+
 TEST_CASE("upper3x3 leaves out the last row and column")
 {
     const float3x3 m = upper3x3(kCounting);

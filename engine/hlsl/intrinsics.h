@@ -192,6 +192,11 @@ inline float4 mul(const float4& v, const float4x4& m)
 {
     return {dot(v, m[0]), dot(v, m[1]), dot(v, m[2]), dot(v, m[3])};
 }
+// The rows of m as columns.
+inline float3x3 transpose(const float3x3& m)
+{
+    return {float3(m[0].x, m[1].x, m[2].x), float3(m[0].y, m[1].y, m[2].y), float3(m[0].z, m[1].z, m[2].z)};
+}
 inline float3x3 upper3x3(const float4x4& m)
 {
     return {m[0].xyz(), m[1].xyz(), m[2].xyz()};

@@ -1,7 +1,6 @@
 // 2.01 Decoded normal map: GLSL Programming/Unity "Lighting of Bumpy Surfaces", Normal Mapping in Unity
 // New: the OpenGL tutorial's words: localSurface2World made per vertex, its columns tangent, binormal and normal.
 // Was: tangent space as Rendering 6 has it (1.25); here under diffuse light only.
-#include "common/glsl_properties.h"
 #include "common/stage.h"
 
 namespace relief::samples {

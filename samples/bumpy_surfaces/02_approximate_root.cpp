@@ -2,7 +2,6 @@
 // New: z without a square root, 1 - (x^2 + y^2) / 2, and by how many degrees the normal is off.
 // Was: the exact root (2.01), here in the left column.
 #include "common/false_color.h"
-#include "common/glsl_properties.h"
 #include "common/stage.h"
 
 namespace relief::samples {

@@ -2,7 +2,6 @@
 // New: the map as OpenGL ES has it, x, y and z in red, green and blue: nothing to compute.
 // Was: z computed from x and y (2.02), here in the left column.
 #include "common/false_color.h"
-#include "common/glsl_properties.h"
 #include "common/stage.h"
 
 namespace relief::samples {

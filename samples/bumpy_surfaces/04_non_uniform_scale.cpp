@@ -1,7 +1,6 @@
 // 2.04 Non-uniform scale: GLSL Programming/Unity "Lighting of Bumpy Surfaces", Normal Mapping in Unity
 // New: a sphere pressed flat: its normals by the inverse transpose (left) and, wrong, by the matrix itself (right).
 // Was: a round sphere (2.01 to 2.03), for which the two are the same.
-#include "common/glsl_properties.h"
 #include "common/stage.h"
 
 namespace relief::samples {

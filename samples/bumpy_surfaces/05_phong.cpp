@@ -1,7 +1,6 @@
 // 2.05 Phong: GLSL Programming/Unity "Lighting of Bumpy Surfaces", the complete shader, first pass
 // New: ambient light and a highlight.
 // Was: diffuse light only (2.01 to 2.04).
-#include "common/glsl_properties.h"
 #include "common/stage.h"
 
 namespace relief::samples {

@@ -1,7 +1,6 @@
 // 2.06 Two lights: GLSL Programming/Unity "Lighting of Bumpy Surfaces", the complete shader, both passes
 // New: a lamp whose light falls off as 1 / distance, added by a pass of its own.
 // Was: one directional light (2.05).
-#include "common/glsl_properties.h"
 #include "common/stage.h"
 
 namespace relief::samples {

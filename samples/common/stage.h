@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/phong_properties.h"
 #include "common/scene.h"
 
 namespace relief::samples {

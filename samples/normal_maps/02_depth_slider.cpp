@@ -1,0 +1,94 @@
+// 3.02 Depth slider: UnityCookie, part 7, "Fragment program"
+// New: z is the same number everywhere, and that number is a property.
+// Was: z computed from x and y (3.01).
+#include "common/stage.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct vertexInput
+{
+    POSITION vertex;
+    NORMAL normal;
+    TEXCOORD<0, float4> texcoord;
+    TANGENT tangent;
+};
+
+struct vertexOutput
+{
+    SV_POSITION pos;
+    TEXCOORD<0, float4> tex;
+    TEXCOORD<1, float4> posWorld;
+    TEXCOORD<2, float3> tangentWorld;
+    TEXCOORD<3, float3> normalWorld;
+    TEXCOORD<4, float3> binormalWorld;
+};
+
+struct vert
+{
+    ObjectTransform object;
+
+    vertexOutput operator()(vertexInput v) const
+    {
+        vertexOutput o;
+        o.tangentWorld = UnityObjectToWorldDir(object, v.tangent.xyz());
+        o.normalWorld = UnityObjectToWorldNormal(object, v.normal);
+        o.binormalWorld = normalize(cross(o.normalWorld, o.tangentWorld) * v.tangent.w);
+        o.posWorld = mul(object.worldFromObject, v.vertex);
+        o.pos = UnityObjectToClipPos(object, v.vertex);
+        o.tex = v.texcoord;
+        return o;
+    }
+};
+
+struct frag
+{
+    float3 worldSpaceCameraPos, ambient, lightColor0;
+    float4 worldSpaceLightPos0;  // of a directional light: towards it, and w = 0
+    sampler2D bumpMap;
+    float4 bumpMap_ST, color, specColor;
+    Float shininess, bumpDepth;
+
+    float4 operator()(vertexOutput i) const
+    {
+        const float3 viewDirection = normalize(worldSpaceCameraPos - i.posWorld.xyz());
+        const float3 lightDirection = normalize(worldSpaceLightPos0.xyz());
+        const Float atten = 1.0f;
+
+        const float4 texN = tex2D(bumpMap, bumpMap_ST.xy() * i.tex.xy() + bumpMap_ST.zw());
+        float3 localCoords = float3(2.0f * texN.ag() - 1.0f, 0.0f);
+        localCoords.z = bumpDepth;
+        const float3 normalDirection =
+            normalize(localCoords.x * i.tangentWorld + localCoords.y * i.binormalWorld + localCoords.z * i.normalWorld);
+
+        const float3 diffuseReflection = atten * lightColor0 * saturate(dot(normalDirection, lightDirection));
+        const Float highlight = saturate(dot(reflect(-lightDirection, normalDirection), viewDirection));
+        const float3 specularReflection = diffuseReflection * specColor.rgb() * pow(highlight, shininess);
+
+        const float3 lightFinal = ambient + diffuseReflection + specularReflection;
+        return float4(lightFinal * color.rgb(), 1.0f);
+    }
+};
+
+}  // namespace
+
+Stage normal_maps_02_depth_slider()
+{
+    return {.title = "Depth slider",
+            .section = "7, fragment program",
+            .news = "z is one number for the whole map, and a slider for the depth of the bumps.",
+            .properties =
+                cgProperties({{"bumpDepth", glm::vec4(1.0f), 0.0f, 8.0f, 1, "z of all normals; 0 is the bumpiest"}}),
+            .inputs = {.mesh = "sphere", .normal = "marble-heights.png"},
+            .camera = {.position = {0.0f, 0.3f, -1.8f}},
+            .draw = [](const Scene& s) {
+                const float3 lightColor0 = s.light.color * s.number("lightStrength");
+                s.draw(s.mesh, vert{s.object(s.objects[0].worldFromObject)},
+                       frag{s.worldSpaceCameraPos, s.vector("ambient").rgb(), lightColor0, float4(s.light.dir, 0.0f),
+                            s.normalMap, s.vector("bumpMap_ST"), s.vector("color"), s.vector("specColor"),
+                            s.number("shininess"), s.number("bumpDepth")});
+            }};
+}
+
+}  // namespace relief::samples
