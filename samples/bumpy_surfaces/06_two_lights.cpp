@@ -92,7 +92,11 @@ Stage bumpy_surfaces_06_two_lights()
             .inputs = {.mesh = "sphere+quad", .normal = "marble-heights.png", .normalImport = normalMapSettings(0.02f)},
             .camera = {.position = {0.0f, 0.9f, -2.3f}},
             .draw = [](const Scene& s) {
-                MyFragmentProgram sun = {s.normalMap, s.vector("bumpMap_ST"), s.vector("color"), s.vector("specColor")};
+                MyFragmentProgram sun;
+                sun.bumpMap = s.normalMap;
+                sun.bumpMap_ST = s.vector("bumpMap_ST");
+                sun.color = s.vector("color");
+                sun.specColor = s.vector("specColor");
                 sun.shininess = s.number("shininess");
                 sun.tutorialForm = s.number("tutorialForm");
                 sun.worldSpaceCameraPos = s.worldSpaceCameraPos;
