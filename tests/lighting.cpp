@@ -226,14 +226,3 @@ TEST_CASE("lighting: S-803 light that sinks below the surface fades out without 
         }
     }
 }
-
-TEST_CASE("lighting: indirect light: diffuse as it is, specular by Fresnel between head on and grazing")
-{
-    const UnityIndirect indirect = {{0.5f, 0.5f, 0.5f}, {2.0f, 2.0f, 2.0f}};
-    const float3 headOn =
-        UNITY_BRDF_Indirect({0.3f, 0.3f, 0.3f}, {0.04f, 0.04f, 0.04f}, 0.96f, 1.0f, kUp, kUp, indirect);
-    CHECK(headOn.x[0] == doctest::Approx(0.15 + 2.0 * 0.04 / (1.0 + 4e-6)));
-    const float3 grazing =
-        UNITY_BRDF_Indirect({0.3f, 0.3f, 0.3f}, {0.04f, 0.04f, 0.04f}, 0.96f, 1.0f, kUp, direction(0.0, 0.0), indirect);
-    CHECK(grazing.x[0] == doctest::Approx(0.15 + 2.0 / (1.0 + 4e-6)));
-}

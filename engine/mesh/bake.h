@@ -18,8 +18,7 @@ struct BakeOptions
     int width = 512, height = 512;  // texels, 1..16384
     float distance = 0.1f;          // how far to search outwards and inwards, in object space; above 0
     BinormalAt binormal = BinormalAt::vertex;
-    int padding =
-        4;  // texels by which the islands in the picture are continued, 0..64: filters reach over their border
+    int padding = 4;  // texels by which islands are continued outwards, 0..64: filters reach over their border
 };
 
 enum class TexelState : std::uint8_t

@@ -31,7 +31,7 @@ Expected<void> checkMesh(const BakedNormalMap& map, const Mesh& mesh)
     });
     if (map.hits == 0 || (hasStreams && hasSmallUvs)) return {};
     return fail("mesh '" + mesh.name +
-                "': no map was baked for it, without uvs in the picture and tangents; give the " + "baked mesh");
+                "': no map was baked for it, without uvs in the picture and tangents; give the baked mesh");
 }
 
 }  // namespace

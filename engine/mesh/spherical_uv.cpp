@@ -6,9 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include <glm/common.hpp>
-
 #include "lanes/math.h"
+#include "mesh/bounds.h"
 #include "mesh/weld.h"
 
 namespace relief {
@@ -68,13 +67,8 @@ Expected<Mesh> withSphericalUvs(Mesh mesh)
     if (const Expected<void> valid = validate(mesh); !valid) return tl::unexpected(valid.error());
     if (mesh.positions.empty()) return mesh;
 
-    glm::vec3 low = mesh.positions[0];
-    glm::vec3 high = low;
-    for (const glm::vec3& position : mesh.positions) {
-        low = glm::min(low, position);
-        high = glm::max(high, position);
-    }
-    const glm::dvec3 centre = 0.5 * (glm::dvec3(low) + glm::dvec3(high));
+    const Bounds bounds = boundsOf(mesh);
+    const glm::dvec3 centre = 0.5 * (glm::dvec3(bounds.low) + glm::dvec3(bounds.high));
     std::vector<Spherical> vertices;
     vertices.reserve(mesh.positions.size());
     for (const glm::vec3& position : mesh.positions) {

@@ -19,6 +19,7 @@ namespace relief {
 namespace {
 
 using Index = std::uint32_t;
+
 // What has no direction stays as it is.
 glm::vec3 normalizedOrZero(glm::vec3 v)
 {
@@ -142,15 +143,14 @@ void Builder::growGroup(Index first)
 {
     const bool orientation = triangles[first / 3].keepsOrientation;
     Group group{orientation, members.size(), members.size()};
-    std::vector<bool>& assigned = isAssigned;
     const auto join = [&](Index corner) {
-        if (corner == kNoEdge || assigned[corner]) return;
+        if (corner == kNoEdge || isAssigned[corner]) return;
         Triangle& triangle = triangles[corner / 3];
         const Index begin = corner - corner % 3;
-        const bool isFree = !assigned[begin] && !assigned[begin + 1] && !assigned[begin + 2];
+        const bool isFree = !isAssigned[begin] && !isAssigned[begin + 1] && !isAssigned[begin + 2];
         if (triangle.joinsAny && isFree) triangle.keepsOrientation = orientation;  // the first group decides
         if (triangle.keepsOrientation != orientation) return;
-        assigned[corner] = true;
+        isAssigned[corner] = true;
         members.push_back(corner);
     };
     join(first);

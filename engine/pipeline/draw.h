@@ -110,6 +110,7 @@ public:
             }
             shadeBlock(block, triangle, corners, tile, counts);
         }
+        activeLanes = kAllLanes;
         statistics.blocksShaded += counts.blocks;
         statistics.quadsShaded += counts.quads;
         statistics.pixelsShaded += counts.pixels;
@@ -135,6 +136,7 @@ public:
             Discard discard;
             sum += runProgram(again, discard);
         }
+        activeLanes = kAllLanes;
         return sum.x[0] + sum.y[0] + sum.z[0] + sum.w[0];
     }
 

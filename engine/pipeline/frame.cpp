@@ -200,7 +200,6 @@ void Frame::Storage::shadeVertices()
     }
     const auto pieces = cut(draws, kVerticesPerChunk, [](const DrawGeometry& g) { return g.vertexCount; });
     workers.run(static_cast<int>(pieces.size()), [&](int chunk, int worker) {
-        activeLanes = kAllLanes;
         for (const Piece& piece : pieces[static_cast<std::size_t>(chunk)]) {
             draws[piece.draw]->shadeVertices(piece.first, piece.count);
             perWorker[static_cast<std::size_t>(worker)].statistics.verticesShaded += piece.count;

@@ -38,12 +38,6 @@ inline Float Pow5(Float x)
     return square * square * x;
 }
 
-// Light that comes from everywhere: what the surroundings send, and what a mirror would show of them.
-struct UnityIndirect
-{
-    float3 diffuse, specular;
-};
-
 namespace detail {
 
 // The angles of one light that both forms of the model need.
@@ -121,19 +115,6 @@ inline float4 UNITY_BRDF_PBS_Exact(const float3& diffColor, const float3& specCo
 
     const float3 diffuse = diffColor * detail::disneyDiffuse(angles, perceptualRoughness);
     return float4((diffuse + detail::fresnel(specColor, LdotH) * specularTerm) * light.color, 1.0f);
-}
-
-// What BRDF1 adds for indirect light: once, in the base pass.
-inline float3 UNITY_BRDF_Indirect(const float3& diffColor, const float3& specColor, Float oneMinusReflectivity,
-                                  Float smoothness, const float3& normal, const float3& viewDir,
-                                  const UnityIndirect& indirect)
-{
-    const Float perceptualRoughness = 1.0f - saturate(smoothness);
-    const Float roughness = max(perceptualRoughness * perceptualRoughness, Float(0.002f));
-    const Float surfaceReduction = 1.0f / (roughness * roughness + 1.0f);
-    const Float grazingTerm = saturate(saturate(smoothness) + (1.0f - oneMinusReflectivity));
-    const float3 F = lerp(specColor, float3(grazingTerm), Pow5(1.0f - saturate(abs(dot(normal, viewDir)))));
-    return diffColor * indirect.diffuse + indirect.specular * F * surfaceReduction;
 }
 
 }  // namespace relief

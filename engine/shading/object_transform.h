@@ -3,6 +3,8 @@
 // perpendicular under any scale, needs no division, and is right for singular and mirrored matrices too.
 #pragma once
 
+#include <glm/geometric.hpp>
+
 #include "hlsl/intrinsics.h"
 
 namespace relief {
@@ -22,15 +24,9 @@ struct ObjectTransform
 
 namespace detail {
 
-inline glm::vec3 crossed(const glm::vec3& a, const glm::vec3& b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 inline float determinantSign(const glm::mat3& m)
 {
-    const glm::vec3 c = crossed(m[1], m[2]);
-    return m[0].x * c.x + m[0].y * c.y + m[0].z * c.z < 0.0f ? -1.0f : 1.0f;
+    return glm::dot(m[0], glm::cross(m[1], m[2])) < 0.0f ? -1.0f : 1.0f;
 }
 
 }  // namespace detail
@@ -46,7 +42,7 @@ inline float mirrorSign(const glm::mat4& m)
 inline glm::mat3 normalMatrix(const glm::mat3& m)
 {
     const float sign = detail::determinantSign(m);
-    return {detail::crossed(m[1], m[2]) * sign, detail::crossed(m[2], m[0]) * sign, detail::crossed(m[0], m[1]) * sign};
+    return {glm::cross(m[1], m[2]) * sign, glm::cross(m[2], m[0]) * sign, glm::cross(m[0], m[1]) * sign};
 }
 
 inline ObjectTransform::ObjectTransform(const glm::mat4& clipFromWorld, const glm::mat4& world)

@@ -17,8 +17,8 @@ inline float3 CreateBinormal(const float3& normal, const float3& tangent, Float 
     return cross(normal, tangent) * (signOf(binormalSign) * signOf(worldTransformSign));
 }
 
-// From tangent space to the space that the three directions are in; of unit length. Where the sum is zero, as for a
-// mesh without tangents, it is the normal.
+// From tangent space to the space that the three directions are in; of unit length; the
+// zero vector where the sum is zero. For a mesh without tangents, whose tangents are zero, it is the normal.
 inline float3 TangentSpaceToWorld(const float3& tangentSpaceNormal, const float3& tangent, const float3& binormal,
                                   const float3& normal)
 {

@@ -2,40 +2,23 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "lanes/math.h"
 
 namespace relief::samples {
 
-namespace {
-
-float dot(const glm::vec3& a, const glm::vec3& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-glm::vec3 cross(const glm::vec3& a, const glm::vec3& b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-glm::vec3 normalize(const glm::vec3& v)
-{
-    return v * (1.0f / std::sqrt(dot(v, v)));
-}
-
-}  // namespace
-
 glm::mat4 viewFromWorld(const Camera& camera)
 {
-    const glm::vec3 forward = normalize(camera.target - camera.position);
+    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
     const bool vertical = std::abs(forward.y) > 0.9999f;
-    const glm::vec3 right = normalize(cross(vertical ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0), forward));
-    const glm::vec3 up = cross(forward, right);
+    const glm::vec3 right = glm::normalize(glm::cross(vertical ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0), forward));
+    const glm::vec3 up = glm::cross(forward, right);
     const glm::vec3& p = camera.position;
     return {{right.x, up.x, forward.x, 0.0f},
             {right.y, up.y, forward.y, 0.0f},
             {right.z, up.z, forward.z, 0.0f},
-            {-dot(right, p), -dot(up, p), -dot(forward, p), 1.0f}};
+            {-glm::dot(right, p), -glm::dot(up, p), -glm::dot(forward, p), 1.0f}};
 }
 
 glm::mat4 clipFromView(const Camera& camera, float aspect)

@@ -161,11 +161,13 @@ void Scene::draw(const Mesh& drawnMesh, const VertexProgram& vertexProgram,
                  const FragmentProgram& fragmentProgram) const
 {
     constexpr bool readsTangents = hasField<TANGENT, relief::detail::VertexDataFor<VertexProgram>>();
+    bool mirrored = false;
     if constexpr (requires { vertexProgram.object.worldFromObject; }) {
         const glm::mat4 worldFromObject = firstLane(vertexProgram.object.worldFromObject);
         log.drawn.push_back({{&drawnMesh, worldFromObject}, log.viewport, log.scissor});
-        frame.setFrontCounterClockwise(mirrorSign(worldFromObject) < 0.0f);
+        mirrored = mirrorSign(worldFromObject) < 0.0f;
     }
+    frame.setFrontCounterClockwise(mirrored);
     frame.draw<state>(readsTangents ? withTangents(drawnMesh) : drawnMesh, vertexProgram, fragmentProgram);
 }
 

@@ -1,6 +1,6 @@
 #include "common/tangent_space_visualizer.h"
 
-#include <cmath>
+#include <glm/geometric.hpp>
 
 namespace relief::samples {
 
@@ -30,17 +30,6 @@ struct LineFragmentProgram
     float4 operator()(Interpolators) const { return float4(color, 1); }
 };
 
-glm::vec3 cross(const glm::vec3& a, const glm::vec3& b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-glm::vec3 normalized(const glm::vec3& v)
-{
-    const float square = v.x * v.x + v.y * v.y + v.z * v.z;
-    return square > 0.0f ? v * (1.0f / std::sqrt(square)) : v;
-}
-
 // What Gizmos.DrawLine collects, in one colour.
 struct Lines
 {
@@ -65,9 +54,9 @@ void TangentSpaceVisualizer::ShowTangentSpace(const Scene& s, const Mesh& shown,
     const float mirrored = mirrorSign(worldFromObject);
     Lines normals, tangents, binormals;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const glm::vec3 normal = normalized(normalFromObject * mesh.normals[i]);
-        const glm::vec3 tangent = normalized(directions * glm::vec3(mesh.tangents[i]));
-        const glm::vec3 binormal = cross(normal, tangent) * (mesh.tangents[i].w * mirrored);
+        const glm::vec3 normal = glm::normalize(normalFromObject * mesh.normals[i]);
+        const glm::vec3 tangent = glm::normalize(directions * glm::vec3(mesh.tangents[i]));
+        const glm::vec3 binormal = glm::cross(normal, tangent) * (mesh.tangents[i].w * mirrored);
         const glm::vec3 vertex = glm::vec3(worldFromObject * glm::vec4(mesh.positions[i], 1.0f)) + normal * offset;
         normals.DrawLine(vertex, vertex + normal * scale);
         tangents.DrawLine(vertex, vertex + tangent * scale);
