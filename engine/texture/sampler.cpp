@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "hlsl/derivatives.h"
+#include "hlsl/intrinsics.h"
 #include "lanes/active.h"
 #include "texture/filter.h"
 #include "texture/level_of_detail.h"
@@ -244,6 +245,16 @@ float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod)
 }
 
 }  // namespace detail
+
+float4 tex2DWhere(Mask needed, const sampler2D& s, const float2& uv)
+{
+    const unsigned outside = activeLanes;
+    activeLanes = outside & needed.bits();
+    float4 color(0.0f);
+    if (activeLanes != 0) color = select(needed, tex2D(s, uv), color);
+    activeLanes = outside;
+    return color;
+}
 
 Float calculateLevelOfDetail(const sampler2D& s, const float2& uv)
 {

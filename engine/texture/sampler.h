@@ -52,7 +52,11 @@ inline float4 tex2D(const sampler2D& s, const float2& uv)
     return detail::sampleImplicit(s, uv.x, uv.y, 0.0f);
 }
 
-// The same with the coordinate's change per pixel given, to the right and down. For coordinates that jump (a seam, a
+// The colour at uv where `needed`, 0 elsewhere; nothing is fetched where no pixel of the block needs it. HLSL's branch
+// around a fetch, but with the right level of detail: uv is to be there in all lanes, so it is computed before.
+float4 tex2DWhere(Mask needed, const sampler2D& s, const float2& uv);
+
+// tex2D with the coordinate's change per pixel given, to the right and down. For coordinates that jump (a seam, a
 // frac) where the surface does not.
 inline float4 tex2Dgrad(const sampler2D& s, const float2& uv, const float2& dx, const float2& dy)
 {

@@ -67,7 +67,7 @@ Stage basics_03_depth()
                 for (int k = 0; k < 2; ++k) {
                     for (int view = 0; view < 3; ++view) {
                         // One camera for all three views, each in its third of the picture.
-                        s.cutColumn(view, 3);
+                        s.cutCell(view, 3);
                         const MyVertexProgram vertex{s.object(turned[k] * scaling(glm::vec3(0.54f)))};
                         if (view == 0) s.draw<kBothSides>(s.mesh, vertex, ShowColor{colors[k]});
                         if (view == 1) s.draw<kBothSides>(s.mesh, vertex, ShowDepth{});

@@ -97,7 +97,7 @@ Stage bumpiness_23_synched_tangent_space()
                 const sampler2D map = {.texture = &baked.normalMap};
                 const ObjectTransform object = s.object(glm::mat4(1.0f));
                 const auto draw = [&](const Mesh& mesh, const sampler2D& normalMap, bool renormalise, int column) {
-                    s.cutColumn(column, 4);
+                    s.cutCell(column, 4);
                     s.draw(mesh, MyVertexProgram{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
                            MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
                                              s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, normalMap,

@@ -154,12 +154,12 @@ Stage bumpiness_24_binormal_per_vertex_or_fragment()
             const auto [vertex, perVertex] = programs<false>(s);
             const auto [fragmentVertex, perFragment] = programs<true>(s);
             const float which = s.number("binormalPerFragment")[0];
-            if (which == 2.0f) s.cutColumn(0, 3);
+            if (which == 2.0f) s.cutCell(0, 3);
             if (which != 1.0f) s.draw(s.mesh, vertex, perVertex);
-            if (which == 2.0f) s.cutColumn(1, 3);
+            if (which == 2.0f) s.cutCell(1, 3);
             if (which != 0.0f) s.draw(s.mesh, fragmentVertex, perFragment);
             if (which == 2.0f) {
-                s.cutColumn(2, 3);
+                s.cutCell(2, 3);
                 s.draw(s.mesh, vertex, ShowDifference{perVertex, perFragment, s.number("exaggeration")});
             }
         }};

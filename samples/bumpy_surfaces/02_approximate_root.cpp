@@ -90,11 +90,11 @@ Stage bumpy_surfaces_02_approximate_root()
             MyFragmentProgram approximate = exact;
             approximate.exact = false;
 
-            s.cutColumn(0, 3);
+            s.cutCell(0, 3);
             s.draw(s.mesh, vertex, exact);
-            s.cutColumn(1, 3);
+            s.cutCell(1, 3);
             s.draw(s.mesh, vertex, approximate);
-            s.cutColumn(2, 3);
+            s.cutCell(2, 3);
             s.draw(s.mesh, vertex,
                    ShowAngle<Interpolators, MyFragmentProgram>{exact, approximate, s.number("maximumAngle")});
             drawScale(s, 3);

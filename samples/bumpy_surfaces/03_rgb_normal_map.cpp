@@ -97,11 +97,11 @@ Stage bumpy_surfaces_03_rgb_normal_map()
             computed.bumpMap = s.detailNormalMap;
             computed.rgb = false;
 
-            s.cutColumn(0, 3);
+            s.cutCell(0, 3);
             s.draw(s.mesh, vertex, computed);
-            s.cutColumn(1, 3);
+            s.cutCell(1, 3);
             s.draw(s.mesh, vertex, stored);
-            s.cutColumn(2, 3);
+            s.cutCell(2, 3);
             s.draw(s.mesh, vertex,
                    ShowAngle<Interpolators, MyFragmentProgram>{computed, stored, s.number("maximumAngle")});
             drawScale(s, 3);

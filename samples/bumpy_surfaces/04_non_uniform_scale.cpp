@@ -83,7 +83,7 @@ Stage bumpy_surfaces_04_non_uniform_scale()
                 const float4 scale = s.vector("scale");
                 const glm::mat4 squeezed = scaling({scale.x[0], scale.y[0], scale.z[0]});
                 for (int column = 0; column < 2; ++column) {
-                    s.cutColumn(column, 2);
+                    s.cutCell(column, 2);
                     s.draw(s.mesh, MyVertexProgram{s.object(s.objects[0].worldFromObject * squeezed), column == 1},
                            MyFragmentProgram{s.normalMap, s.vector("bumpMap_ST"), s.vector("color"),
                                              float4(s.light.dir, Float(0.0f)), s.light.color});

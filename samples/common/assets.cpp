@@ -6,7 +6,6 @@
 
 #include "mesh/bounds.h"
 #include "mesh/primitives.h"
-#include "mesh/spherical_uv.h"
 
 namespace relief::samples {
 
@@ -31,15 +30,14 @@ const Mesh& primitive(const std::string& name)
     return name == "cube" ? cube : name == "sphere" ? sphere : name == "terrain" ? terrain : quad;
 }
 
-Expected<Mesh> fitted(Mesh mesh)
+Mesh fitted(Mesh mesh)
 {
     const Bounds bounds = boundsOf(mesh);
     float extent = 0.0f;
     for (int i = 0; i < 3; ++i) extent = std::max(extent, bounds.high[i] - bounds.low[i]);
     const float scale = extent > 0.0f ? 1.0f / extent : 1.0f;
     for (glm::vec3& p : mesh.positions) p = (p - bounds.low * 0.5f - bounds.high * 0.5f) * scale;
-    if (!mesh.uvs.empty()) return mesh;
-    return withSphericalUvs(std::move(mesh));
+    return mesh;
 }
 
 }  // namespace relief::samples

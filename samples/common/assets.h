@@ -15,8 +15,7 @@ Expected<std::string> assetPath(const std::string& name);
 // "quad", "cube", "sphere" or "terrain"; made once per process.
 const Mesh& primitive(const std::string& name);
 
-// The mesh moved and scaled so that it fits the unit cube about the origin, as the primitives do. A mesh without uv
-// gets them by longitude and latitude, as a globe has its map.
-Expected<Mesh> fitted(Mesh mesh);
+// The mesh moved and scaled so that it fits the unit cube about the origin, as the primitives do.
+Mesh fitted(Mesh mesh);
 
 }  // namespace relief::samples

@@ -6,6 +6,7 @@
 #include "common/assets.h"
 #include "common/import_options.h"
 #include "common/tangent_space_visualizer.h"
+#include "mesh/spherical_uv.h"
 #include "mesh/tangents.h"
 
 namespace relief::samples {
@@ -53,7 +54,7 @@ Expected<void> load(const std::string& option, const std::string& input, const s
 constexpr glm::mat4 kLying = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}};
 
 // The shapes of "cube+sphere+quad": solids side by side and turned a little, a quad among them as their floor.
-std::vector<Object> arranged(const std::string& names)
+std::vector<Object> arranged(const std::string& names, float cubesTurnedBy)
 {
     std::vector<std::string> solids;
     std::vector<Object> objects;
@@ -64,8 +65,8 @@ std::vector<Object> arranged(const std::string& names)
     if (floor) solids.pop_back();
     for (std::size_t i = 0; i < solids.size(); ++i) {
         const float x = (static_cast<float>(i) - static_cast<float>(solids.size() - 1) * 0.5f) * 1.35f;
-        objects.push_back(
-            {&primitive(solids[i]), translation({x, 0, 0}) * rotationY(solids[i] == "cube" ? 35.0f : 0.0f)});
+        const float angle = solids[i] == "cube" ? cubesTurnedBy : 0.0f;
+        objects.push_back({&primitive(solids[i]), translation({x, 0, 0}) * rotationY(angle)});
     }
     if (floor) objects.push_back({&primitive("quad"), translation({0, -0.5f, 0}) * kLying * scaling(glm::vec3(4.0f))});
     return objects;
@@ -81,12 +82,11 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     }
     if (!files.mesh.empty()) {
         Expected<Mesh> mesh = readObj(files.mesh);
-        if (mesh) mesh = fitted(std::move(*mesh));
         if (!mesh) return tl::unexpected(mesh.error());
-        loaded->usersMesh = std::move(*mesh);
+        loaded->usersMesh = fitted(std::move(*mesh));
         loaded->objects = {{&*loaded->usersMesh, glm::mat4(1.0f)}};
     } else {
-        loaded->objects = arranged(inputs.mesh.empty() ? "quad" : inputs.mesh);
+        loaded->objects = arranged(inputs.mesh.empty() ? "quad" : inputs.mesh, inputs.cubesTurnedBy);
     }
     const ImportSettings albedo = {}, heights = {.colorSpace = ColorSpace::linear};
     const Expected<ImportSettings> normal = withOptions(inputs.normalImport, files.import);
@@ -108,7 +108,10 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
 
 void SceneLog::clear()
 {
-    for (const Mesh& mesh : kept) tangents.erase(&mesh);
+    for (const Mesh& mesh : kept) {
+        uvs.erase(&mesh);
+        tangents.erase(&mesh);
+    }
     drawn.clear();
     notes.clear();
     kept.clear();
@@ -188,16 +191,35 @@ void Scene::leftOut(const std::string& name, const Object& object) const
     note("pass left out: " + name + " does not reach the " + object.mesh->name);
 }
 
+namespace {
+
+// What `complete` makes of a mesh; the mesh itself if it cannot.
+const Mesh& madeOnce(std::map<const Mesh*, std::unique_ptr<Mesh>>& made, const Mesh& mesh,
+                     Expected<Mesh> (*complete)(Mesh))
+{
+    std::unique_ptr<Mesh>& result = made[&mesh];
+    if (!result) result = std::make_unique<Mesh>(complete(mesh).value_or(mesh));
+    return *result;
+}
+
+Expected<Mesh> withUvsAndTangents(Mesh mesh)
+{
+    if (!mesh.uvs.empty()) return withTangents(std::move(mesh));
+    return withSphericalUvs(std::move(mesh)).and_then(withTangents);
+}
+
+}  // namespace
+
+const Mesh& Scene::withUvs(const Mesh& plain) const
+{
+    return plain.uvs.empty() ? madeOnce(log.uvs, plain, withSphericalUvs) : plain;
+}
+
 const Mesh& Scene::withTangents(const Mesh& plain) const
 {
     if (!plain.tangents.empty()) return plain;
-    std::unique_ptr<Mesh>& made = log.tangents[&plain];
-    if (!made) {
-        Expected<Mesh> computed = relief::withTangents(plain);
-        made = std::make_unique<Mesh>(computed ? std::move(*computed) : plain);
-        note("tangents computed for " + plain.name);
-    }
-    return *made;
+    if (log.tangents.count(&plain) == 0) note("tangents computed for " + plain.name);
+    return madeOnce(log.tangents, plain, withUvsAndTangents);
 }
 
 void Scene::cut(const Viewport& viewport, const Rectangle& scissor) const
@@ -214,10 +236,11 @@ void Scene::cutStrip(float from, float to) const
     cut({0, 0, width, height}, {column(from), 0, column(to), height});
 }
 
-void Scene::cutColumn(int column, int count) const
+void Scene::cutCell(int column, int columns, int row, int rows) const
 {
-    const int from = column * width / count, to = (column + 1) * width / count;
-    cut({(from + to - width) / 2, 0, width, height}, {from, 0, to, height});
+    const int left = column * width / columns, right = (column + 1) * width / columns;
+    const int top = row * height / rows, bottom = (row + 1) * height / rows;
+    cut({(left + right - width) / 2, (top + bottom - height) / 2, width, height}, {left, top, right, bottom});
 }
 
 std::vector<Property> litProperties(std::vector<Property> more)

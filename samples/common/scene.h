@@ -41,6 +41,7 @@ struct Inputs
 {
     std::string mesh;  // "quad", "cube", "sphere", "terrain"; several with + between them stand side by side
     std::string albedo, height, normal, detail, detailNormal;
+    float cubesTurnedBy = 35.0f;  // degrees about Y, where there are several shapes
     ImportSettings normalImport = normalMapSettings(0.05f);
     ImportSettings detailImport = {};
     ImportSettings detailNormalImport = normalMapSettings(0.1f);
@@ -82,14 +83,16 @@ struct SceneLog
         Rectangle scissor;
     };
     std::vector<Drawn> drawn;
-    std::vector<std::string> notes;                         // what was left out, and what was measured; for explain
-    std::deque<Mesh> kept;                                  // meshes that the scene made
-    std::map<const Mesh*, std::unique_ptr<Mesh>> tangents;  // meshes that came without tangents, with them
+    std::vector<std::string> notes;  // what was left out, and what was measured; for explain
+    std::deque<Mesh> kept;  // meshes that the scene made
+
+    // Meshes that came without uv or tangents, with them; made when a program first reads any.
+    std::map<const Mesh*, std::unique_ptr<Mesh>> uvs, tangents;
 
     Viewport viewport;  // of the next draws
     Rectangle scissor;
 
-    // For the next frame; tangents stay.
+    // For the next frame; uvs and tangents stay.
     void clear();
 };
 
@@ -120,8 +123,8 @@ public:
     ObjectTransform object(const glm::mat4& worldFromObject) const;
     ObjectTransform lying() const;
 
-    // Frame::draw. A mesh without tangents gets them here, if the vertex program reads any, and a mirrored object its
-    // front faces.
+    // Frame::draw. A mesh without uv or tangents gets them here, if the vertex program reads any, and a mirrored object
+    // its front faces.
     template <RenderState state = RenderState{}, class VertexProgram, class FragmentProgram>
     void draw(const Mesh& mesh, const VertexProgram& vertexProgram, const FragmentProgram& fragmentProgram) const;
 
@@ -135,15 +138,16 @@ public:
     // Lines over everything drawn so far.
     void showTangents(const TangentSpaceVisualizer& visualizer) const;
 
-    // The next draws go into one of `count` columns of the picture, seen by the same camera in each: what stands at the
-    // origin looks the same in all of them.
-    void cutColumn(int column, int count) const;
+    // The next draws go into one of `columns` * `rows` cells of the picture, from the top left one, seen by the same
+    // camera in each: what stands at the origin looks the same in all of them.
+    void cutCell(int column, int columns, int row = 0, int rows = 1) const;
 
     // For meshes that a stage makes: they live until the frame has run. And a line for explain.
     const Mesh& keep(Mesh made) const;
     void note(const std::string& line) const;
 
-    // The mesh, or, if it came without tangents, the same with tangents; computed once.
+    // The mesh, or, if it came without, the same with uv by longitude and latitude, or with tangents; made once.
+    const Mesh& withUvs(const Mesh& mesh) const;
     const Mesh& withTangents(const Mesh& mesh) const;
 
 private:
@@ -160,7 +164,9 @@ template <RenderState state, class VertexProgram, class FragmentProgram>
 void Scene::draw(const Mesh& drawnMesh, const VertexProgram& vertexProgram,
                  const FragmentProgram& fragmentProgram) const
 {
-    constexpr bool readsTangents = hasField<TANGENT, relief::detail::VertexDataFor<VertexProgram>>();
+    using VertexData = relief::detail::VertexDataFor<VertexProgram>;
+    constexpr bool readsTangents = hasField<TANGENT, VertexData>();
+    constexpr bool readsUvs = hasField<TEXCOORD<0, float2>, VertexData>() || hasField<TEXCOORD<0, float4>, VertexData>();
     bool mirrored = false;
     if constexpr (requires { vertexProgram.object.worldFromObject; }) {
         const glm::mat4 worldFromObject = firstLane(vertexProgram.object.worldFromObject);
@@ -168,7 +174,8 @@ void Scene::draw(const Mesh& drawnMesh, const VertexProgram& vertexProgram,
         mirrored = mirrorSign(worldFromObject) < 0.0f;
     }
     frame.setFrontCounterClockwise(mirrored);
-    frame.draw<state>(readsTangents ? withTangents(drawnMesh) : drawnMesh, vertexProgram, fragmentProgram);
+    const Mesh& complete = readsTangents ? withTangents(drawnMesh) : readsUvs ? withUvs(drawnMesh) : drawnMesh;
+    frame.draw<state>(complete, vertexProgram, fragmentProgram);
 }
 
 template <class Light>

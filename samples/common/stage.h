@@ -8,6 +8,7 @@
 
 #include "common/phong_properties.h"
 #include "common/scene.h"
+#include "common/triplanar_properties.h"
 
 namespace relief::samples {
 

@@ -1,0 +1,91 @@
+// 4.04 UDN: Normal Mapping for a Triplanar Shader, "UDN Blend"
+// New: the map's slopes are added to the surface's normal, so round surfaces stay round.
+// Was: the map alone, by planes (4.03).
+#include "common/stage.h"
+#include "shading/triplanar.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float3> worldPos;
+    TEXCOORD<1, float3> worldNormal;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.worldNormal = UnityObjectToWorldNormal(object, v.normal);
+        return i;
+    }
+};
+
+struct MyFragmentProgram
+{
+    Float tiling, bumpScale;
+    float3 ambient;
+    UnityLight light;
+    sampler2D mainTex, normalMap;
+
+    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const
+    {
+        const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
+        float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);
+        float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);
+        float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);
+
+        tnormalX = float3(tnormalX.xy() + i.worldNormal.zy(), i.worldNormal.x);
+        tnormalY = float3(tnormalY.xy() + i.worldNormal.xz(), i.worldNormal.y);
+        tnormalZ = float3(tnormalZ.xy() + i.worldNormal.xy(), i.worldNormal.z);
+
+        return normalize(tnormalX.zyx() * blend.x + tnormalY.xzy() * blend.y + tnormalZ.xyz() * blend.z);
+    }
+
+    float4 operator()(Interpolators i) const
+    {
+        i.worldNormal = normalize(i.worldNormal);
+        const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
+        const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
+        const Triplanar<float4> color = tex2DTriplanar(mainTex, uv, blend);
+        const float3 albedo = (color.x * blend.x + color.y * blend.y + color.z * blend.z).rgb();
+
+        const float3 normal = WorldNormal(i, uv, blend);
+        return float4(albedo * (light.color * saturate(dot(normal, light.dir)) + ambient), 1);
+    }
+};
+
+}  // namespace
+
+Stage triplanar_04_udn()
+{
+    return {.title = "UDN",
+            .section = "UDN Blend",
+            .news = "The map's slopes added to the surface's normal: round surfaces stay round.",
+            .properties = triplanarProperties(),
+            .inputs = bricks("cube+sphere"),
+            .camera = {.position = {1.1f, 1.1f, -2.1f}},
+            .draw = [](const Scene& s) {
+                for (const Object& o : s.objects) {
+                    s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
+                           MyFragmentProgram{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(),
+                                             s.light, s.mainTex, s.normalMap});
+                }
+            }};
+}
+
+}  // namespace relief::samples

@@ -1,0 +1,97 @@
+// 4.07 Reoriented normal mapping: Normal Mapping for a Triplanar Shader, "Reoriented Normal Mapping"
+// New: the map's normal is turned by the rotation that takes the plane's axis to the surface's normal.
+// Was: slopes added (4.06).
+#include "common/stage.h"
+#include "shading/triplanar.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float3> worldPos;
+    TEXCOORD<1, float3> worldNormal;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.worldNormal = UnityObjectToWorldNormal(object, v.normal);
+        return i;
+    }
+};
+
+struct MyFragmentProgram
+{
+    Float tiling, bumpScale;
+    float3 ambient;
+    UnityLight light;
+    sampler2D mainTex, normalMap;
+
+    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const
+    {
+        const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
+        float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);
+        float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);
+        float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);
+
+        const float3 facing = abs(i.worldNormal);
+        tnormalX = BlendNormalsRNM(float3(i.worldNormal.zy(), facing.x), tnormalX);
+        tnormalY = BlendNormalsRNM(float3(i.worldNormal.xz(), facing.y), tnormalY);
+        tnormalZ = BlendNormalsRNM(float3(i.worldNormal.xy(), facing.z), tnormalZ);
+
+        const float3 side = axisSign(i.worldNormal);
+        tnormalX.z *= side.x;
+        tnormalY.z *= side.y;
+        tnormalZ.z *= side.z;
+
+        return normalize(tnormalX.zyx() * blend.x + tnormalY.xzy() * blend.y + tnormalZ.xyz() * blend.z);
+    }
+
+    float4 operator()(Interpolators i) const
+    {
+        i.worldNormal = normalize(i.worldNormal);
+        const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
+        const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
+        const Triplanar<float4> color = tex2DTriplanar(mainTex, uv, blend);
+        const float3 albedo = (color.x * blend.x + color.y * blend.y + color.z * blend.z).rgb();
+
+        const float3 normal = WorldNormal(i, uv, blend);
+        return float4(albedo * (light.color * saturate(dot(normal, light.dir)) + ambient), 1);
+    }
+};
+
+}  // namespace
+
+Stage triplanar_07_reoriented_normal_mapping()
+{
+    return {.title = "Reoriented normal mapping",
+            .section = "Reoriented Normal Mapping",
+            .news = "The map's normal, turned as the surface is turned from the plane.",
+            .properties = triplanarProperties(),
+            .inputs = bricks("cube+sphere"),
+            .camera = {.position = {1.1f, 1.1f, -2.1f}},
+            .draw = [](const Scene& s) {
+                for (const Object& o : s.objects) {
+                    s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
+                           MyFragmentProgram{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(),
+                                             s.light, s.mainTex, s.normalMap});
+                }
+            }};
+}
+
+}  // namespace relief::samples

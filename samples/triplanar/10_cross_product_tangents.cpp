@@ -1,0 +1,98 @@
+// 4.10 Cross product tangents: Normal Mapping for a Triplanar Shader, "Cross Product Tangent Reconstruction"
+// New: for each plane tangent and binormal from cross products of the normal and an axis.
+// Was: from differences between pixels (4.08).
+#include "common/stage.h"
+#include "shading/triplanar.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float3> worldPos;
+    TEXCOORD<1, float3> worldNormal;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.worldNormal = UnityObjectToWorldNormal(object, v.normal);
+        return i;
+    }
+};
+
+struct MyFragmentProgram
+{
+    Float tiling, bumpScale;
+    float3 ambient;
+    UnityLight light;
+    sampler2D mainTex, normalMap;
+
+    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const
+    {
+        const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
+        const float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);
+        const float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);
+        const float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);
+
+        const float3 side = axisSign(i.worldNormal);
+        const float3 N = i.worldNormal;
+        const float3 tangentX = normalize(cross(N, float3(0, side.x, 0)));
+        const float3 tangentY = normalize(cross(N, float3(0, 0, side.y)));
+        const float3 tangentZ = normalize(cross(N, float3(0, -side.z, 0)));
+        const float3 bitangentX = normalize(cross(tangentX, N)) * side.x;
+        const float3 bitangentY = normalize(cross(tangentY, N)) * side.y;
+        const float3 bitangentZ = normalize(cross(tangentZ, N)) * -side.z;
+
+        return normalize(mul(float3x3(tangentX, bitangentX, N), tnormalX) * blend.x +
+                         mul(float3x3(tangentY, bitangentY, N), tnormalY) * blend.y +
+                         mul(float3x3(tangentZ, bitangentZ, N), tnormalZ) * blend.z);
+    }
+
+    float4 operator()(Interpolators i) const
+    {
+        i.worldNormal = normalize(i.worldNormal);
+        const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
+        const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
+        const Triplanar<float4> color = tex2DTriplanar(mainTex, uv, blend);
+        const float3 albedo = (color.x * blend.x + color.y * blend.y + color.z * blend.z).rgb();
+
+        const float3 normal = WorldNormal(i, uv, blend);
+        return float4(albedo * (light.color * saturate(dot(normal, light.dir)) + ambient), 1);
+    }
+};
+
+}  // namespace
+
+Stage triplanar_10_cross_product_tangents()
+{
+    return {.title = "Cross product tangents",
+            .section = "Cross Product Tangent Reconstruction",
+            .news = "Tangent and binormal of each plane from cross products, as if the mesh had been mapped that way.",
+            .properties = triplanarProperties(),
+            .inputs = bricks("cube+sphere"),
+            .camera = {.position = {1.1f, 1.1f, -2.1f}},
+            .draw = [](const Scene& s) {
+                for (const Object& o : s.objects) {
+                    s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
+                           MyFragmentProgram{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(),
+                                             s.light, s.mainTex, s.normalMap});
+                }
+            }};
+}
+
+}  // namespace relief::samples
