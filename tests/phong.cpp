@@ -9,6 +9,7 @@
 
 #include "common/render.h"
 #include "hlsl/intrinsics.h"
+#include "lane_check.h"
 #include "mesh/primitives.h"
 
 namespace {
@@ -338,6 +339,24 @@ TEST_CASE("phong: S-813 the rim is within 0 to 1 for any power, seen head on and
             CHECK(value == (power == 0.0f ? 1.0f : 0.0f));
         }
     }
+}
+
+TEST_CASE("phong: S-814 unit vectors alone leave R.V up to 2^-20 above 1, and so the stages clamp it")
+{
+    lane_check::RandomBits random;
+    const auto number = [&random] { return static_cast<float>(random() >> 8) * 0x1p-23f - 1.0f; };
+    float largest = 0.0f;
+    for (int trial = 0; trial < 20000; ++trial) {
+        float3 n;
+        for (int c = 0; c < 3; ++c) n[c] = Float(number());
+        n = normalize(n) * Float(1.0f + 0.1f * number());
+        const float3 unit = normalize(n), light = normalize(unit * Float(1.03f));
+        const Float RdotV = dot(reflect(-light, unit), light);
+        largest = std::max(largest, RdotV[0]);
+        CHECK(saturate(RdotV)[0] <= 1.0f);
+    }
+    CHECK(largest > 1.0f);
+    CHECK(largest <= 1.0f + 0x1p-20f);
 }
 
 TEST_CASE("phong: S-814 normals of length 0.9 to 1.1 reflect no more light than arrives")
