@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,7 @@ struct SceneLog
     std::vector<Drawn> drawn;
     std::vector<std::string> notes;                         // what was left out, and what was measured; for explain
     std::deque<Mesh> kept;                                  // meshes that the scene made
+    std::set<const Texture*> textures;                      // that the stage made; explain counts their mip levels
     std::map<const Mesh*, std::unique_ptr<Mesh>> tangents;  // meshes that came without tangents, with them
 
     Viewport viewport;  // of the next draws
@@ -139,8 +141,10 @@ public:
     // origin looks the same in all of them.
     void cutColumn(int column, int count) const;
 
-    // For meshes that a stage makes: they live until the frame has run. And a line for explain.
+    // For meshes that a stage makes: they live until the frame has run. For textures that it makes and that live
+    // longer: explain knows of them. And a line for explain.
     const Mesh& keep(Mesh made) const;
+    sampler2D samplerOf(const Texture& made) const;
     void note(const std::string& line) const;
 
     // The mesh, or, if it came without tangents, the same with tangents; computed once.
