@@ -1,6 +1,8 @@
 // Phong's highlight, the rim and the 1 / distance lamp of chapters 2 and 3 at their limits (stability cases S-801 and
 // S-803 to S-806, S-813, S-814): the stages themselves, drawn on a square or on their own shapes.
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
@@ -19,7 +21,7 @@ using namespace relief::samples;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A stage without its bumps and pictures, as floats.
+// What a drawing gives, as floats.
 struct Picture
 {
     std::vector<glm::vec4> pixels;  // those that something was drawn to
@@ -27,6 +29,7 @@ struct Picture
     std::uint64_t invalid = 0;
 };
 
+// A stage without its pictures and, unless told otherwise, without its bumps.
 struct Drawing
 {
     explicit Drawing(const std::string& stage, const std::vector<std::string>& settings, bool bumps = false)

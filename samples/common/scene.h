@@ -85,8 +85,9 @@ struct SceneLog
     std::vector<Drawn> drawn;
     std::vector<std::string> notes;                         // what was left out, and what was measured; for explain
     std::deque<Mesh> kept;                                  // meshes that the scene made
-    std::set<const Texture*> textures;                      // that the stage made; explain counts their mip levels
     std::map<const Mesh*, std::unique_ptr<Mesh>> tangents;  // meshes that came without tangents, with them
+
+    std::set<const Texture*> textures;  // that the stage made; explain counts their mip levels
 
     Viewport viewport;  // of the next draws
     Rectangle scissor;
