@@ -254,7 +254,7 @@ Framebuffer normalsOf(const Mesh& mesh)
     Framebuffer target = makeTarget(128, 128);
     Frame frame(target, {1, kDefaultTileSize});
     frame.clear(glm::vec4(0.0f));
-    const glm::mat4 clipFromWorld = {{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 1.1f, 1}, {0, 0, -0.1f, 0}};
+    const glm::mat4 clipFromWorld = {{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 1.0f, 1}, {0, 0, -0.1f, 0}};
     frame.draw<RenderState{.cull = Cull::none}>(mesh, VertexProgram{ObjectTransform(clipFromWorld, glm::mat4(1.0f))},
                                                 CotangentProgram());
     frame.run();
