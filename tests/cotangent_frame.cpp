@@ -1,5 +1,5 @@
 // Cotangent frames: the same as algebra says on a plane, turned upside down, and where there is no frame (stability
-// cases S-655 and S-656; S-657 is in triplanar_stages.cpp).
+// cases S-503, S-655 and S-656; S-657 is in triplanar_stages.cpp).
 #include "shading/cotangent_frame.h"
 
 #include <cmath>
@@ -96,4 +96,22 @@ TEST_CASE("cotangent frame: very small and very large pixels and textures")
             CHECK(angle(n, reference) <= 1e-2);
         }
     }
+}
+
+TEST_CASE("cotangent frame: S-503 a seam of uv spoils its own quads only, and not if uv is taken before it is wrapped")
+{
+    // u runs over 1 in the middle of the block's first quad.
+    const Block block(0.5f, 0.2f);
+    const float2 whole = {block.position.x + 0.995f, block.position.y};
+    const float2 wrapped = {frac(whole.x), whole.y};
+    const float3 before = perturb_normal(kBump, block.normal, block.position, whole);
+    const float3 after = perturb_normal(kBump, block.normal, block.position, wrapped);
+    const Vector reference = lane(before, kLanes - 1);
+    for (int i = 0; i < kLanes; ++i) {
+        CHECK(angle(lane(before, i), reference) <= 1e-2);
+        REQUIRE(isFinite(lane(after, i)));
+        CHECK(length(lane(after, i)) == doctest::Approx(1.0).epsilon(1e-6));
+        if (laneX(i) >= 2) CHECK(angle(lane(after, i), reference) <= 1e-2);
+    }
+    CHECK(angle(lane(after, 0), reference) > 10.0);
 }
