@@ -369,3 +369,35 @@ TEST_CASE("command line: the gallery has every picture and a page that names the
         CHECK(page.find(stage.news) != std::string::npos);
     }
 }
+
+TEST_CASE("command line: bench --stage measures stages in turn, or draws and says how many pixels it shaded")
+{
+    const TemporaryFolder folder;
+    const Outcome table = run(folder.path, "bench --stage 1.01 --stage 1.06 --size 96x54 --rounds 2");
+    CHECK(table.code == 0);
+    std::stringstream lines(table.out);
+    std::string line, word;
+    CHECK((std::getline(lines, line) && line.find("96x54, threads: 1") != std::string::npos));
+    CHECK((std::getline(lines, line) && line.find("ratio to 1.01") != std::string::npos));
+    for (const std::string stage : {"1.01", "1.06"}) {
+        REQUIRE(std::getline(lines, line));
+        CHECK(line.starts_with(stage));
+        CHECK(line.find("...") != std::string::npos);
+    }
+    CHECK_FALSE(std::getline(lines, line));
+
+    const auto counts = nlohmann::json::parse(run(folder.path, "explain 1.06 --json --size 96x54").out)["counts"];
+    CHECK(run(folder.path, "bench --stage 1.06 --size 96x54 --frames 2").out ==
+          std::to_string(counts["pixels shaded"].get<int>()) + "\n");
+
+    checkRefused(folder.path, "bench --stage 9.99", {"9.99", "relief list"});
+    checkRefused(folder.path, "bench --stage 1.06 --frames 0", {"--frames"});
+    checkRefused(folder.path, "bench --stage 1.06 --frames many", {"--frames"});
+    checkRefused(folder.path, "bench --stage 1.06 --rounds 0", {"--rounds"});
+    checkRefused(folder.path, "bench --stage 1.06 --set depth=1", {"depth", "bumpScale"});
+    checkRefused(folder.path, "bench --stage 1.06 --benchmark_filter=x", {"benchmark_filter"});
+    checkRefused(folder.path, "bench --stage 1.06 --frames 1 --instructions", {"--instructions"});
+    checkRefused(folder.path, "bench --stage 1.06 --instructions", {"--counted-program"});
+    checkRefused(folder.path, "bench --stage 1.06 --instructions --counted-program nothing", {"nothing", "counted"});
+    checkRefused(folder.path, "bench --size 96x54", {"--size", "--stage"});
+}

@@ -26,6 +26,17 @@ struct Size
     int width, height;
 };
 
+// What `bench --stage` measures. --set and the files go to every stage.
+struct BenchOptions
+{
+    RenderOptions render = {.threads = 1};
+    std::vector<std::string> stages;
+    int rounds = 15;
+    int frames = 0;  // more than 0: draw as many and measure nothing
+    bool instructions = false;
+    std::string countedProgram;
+};
+
 // "WIDTHxHEIGHT", 1 to 16384 each.
 Expected<Size> parseSize(const std::string& text);
 
@@ -37,6 +48,7 @@ Expected<void> explain(const RenderOptions& options, bool json);
 Expected<void> gallery(const std::string& folder, int threads);
 Expected<void> view(const RenderOptions& options, int frames);
 Expected<void> bench(const std::vector<std::string>& arguments);
+Expected<void> benchStages(const BenchOptions& options);
 
 // The stage that the options name, with their settings and files.
 Expected<PreparedStage> prepare(const RenderOptions& options);
