@@ -20,13 +20,6 @@ Expected<void> drawFrames(const PreparedStage& stage, Size size, const BenchOpti
     return {};
 }
 
-std::string text(const char* format, double number)
-{
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, number);
-    return buffer;
-}
-
 std::string text(const Quartiles& q)
 {
     char buffer[64];

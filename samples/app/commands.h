@@ -40,6 +40,14 @@ struct BenchOptions
 // "WIDTHxHEIGHT", 1 to 16384 each.
 Expected<Size> parseSize(const std::string& text);
 
+// What `report` measures, and where the files go.
+struct ReportOptions
+{
+    std::string name, output = "docs/report", size = "960x540";
+    int rounds = 31;
+    std::string countedProgram;  // empty: instructions are not counted
+};
+
 Expected<void> list(bool json);
 Expected<void> render(const RenderOptions& options, const std::string& output);
 Expected<void> hash(const RenderOptions& options, int tileSize);
@@ -49,6 +57,7 @@ Expected<void> gallery(const std::string& folder, int threads);
 Expected<void> view(const RenderOptions& options, int frames);
 Expected<void> bench(const std::vector<std::string>& arguments);
 Expected<void> benchStages(const BenchOptions& options);
+Expected<void> report(const ReportOptions& options);
 
 // The stage that the options name, with their settings and files.
 Expected<PreparedStage> prepare(const RenderOptions& options);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 
 namespace relief::samples {
 
@@ -30,6 +31,13 @@ Quartiles quartiles(std::vector<double> values)
         return values[static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)))];
     };
     return {at(0.25), at(0.5), at(0.75)};
+}
+
+std::string text(const char* format, double number)
+{
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, number);
+    return buffer;
 }
 
 double Cost::fetchesPerFragment() const

@@ -41,6 +41,9 @@ Expected<std::vector<Cost>> measure(const std::vector<PreparedStage>& stages, Si
 // every time. One thread, whatever the options say.
 Expected<double> instructionsPerFragment(const std::string& program, const RenderOptions& options);
 
+// A number as printf writes it.
+std::string text(const char* format, double number);
+
 // What a command prints to stdout and stderr, or nothing where it cannot be run or fails. And a word for such a
 // command.
 std::optional<std::string> outputOf(const std::string& command);

@@ -140,6 +140,23 @@ int main(int argc, char** argv)
         if (result) result = bench(others);
     });
 
+    command = app.add_subcommand("report", "Measures what a chapter claims, and writes it down: text, table and plot");
+    ReportOptions reportOptions;
+    command->add_option("name", reportOptions.name, "triplanar: what each way to map normals costs, beside its error")
+        ->required();
+    command->add_option("--output", reportOptions.output, "The folder")->capture_default_str()->type_name("DIR");
+    command->add_option("--size", reportOptions.size, "Picture size in pixels")
+        ->type_name("WxH")
+        ->capture_default_str();
+    command->add_option("--rounds", reportOptions.rounds, "How often each stage has its turn")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command
+        ->add_option("--counted-program", reportOptions.countedProgram,
+                     "The relief that instructions are counted in; ./relief builds one")
+        ->type_name("FILE");
+    command->callback([&] { result = report(reportOptions); });
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {
