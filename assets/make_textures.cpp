@@ -1,6 +1,6 @@
-// Makes the textures of the samples: marble-albedo.png (sRGB colour), marble-heights.png (linear grey, 0 in the cracks),
-// marble-detail.png (sRGB grey about 0.5), and bricks-albedo.png and bricks-heights.png (bricks.h). 512 x 512 pixels
-// each, tileable, the same bytes on every machine. Usage: make_textures OUTPUT_DIR
+// Makes the textures of the samples: marble-albedo.png (sRGB colour), marble-heights.png (linear grey, 0 in the
+// cracks), marble-detail.png (sRGB grey about 0.5), and bricks-albedo.png and bricks-heights.png (bricks.h). 512 x 512
+// pixels each, tileable, the same bytes on every machine. Usage: make_textures OUTPUT_DIR
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -9,11 +9,12 @@
 namespace relief {
 
 // The gradients of u and v along the surface, per unit of position, and the normal: the columns of the matrix that
-// takes a normal of the map to the space of `position` and `normal`. They are longer the more often the texture repeats,
-// and need not be perpendicular: a stretched texture has flatter bumps. `normal` is to be of unit length.
+// takes a normal of the map to the space of `position` and `normal`. They are longer the more often the texture
+// repeats, and need not be perpendicular: a stretched texture has flatter bumps. `normal` is to be of unit length.
 //
 // Flipping the picture upside down changes nothing, because the derivatives are divided by the area that they span,
-// which changes its sign with them. (0, 0, normal) where there is no frame: position or uv constant, or u and v in step.
+// which changes its sign with them. (0, 0, normal) where there is no frame: position or uv constant, or u and v in
+// step.
 inline float3x3 cotangent_gradients(const float3& normal, const float3& position, const float2& uv)
 {
     const float3 dp1 = ddx(position), dp2 = ddy(position);

@@ -39,8 +39,8 @@ inline Triplanar<float4> tex2DTriplanar(const sampler2D& s, const Triplanar<floa
             tex2DWhere(weights.z > 0.0f, s, uv.z)};
 }
 
-// --- the weights of the three planes: each in 0..1, their sum 1 within 3 * 2^-24, for any normal. Where it gives none, as
-// the zero vector and one of NaN do, the ground plane has all: (0, 1, 0).
+// --- the weights of the three planes: each in 0..1, their sum 1 within 3 * 2^-24, for any normal. Where it gives none,
+// as the zero vector and one of NaN do, the ground plane has all: (0, 1, 0).
 
 namespace detail {
 

@@ -16,7 +16,10 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
     command.add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
     command.add_option("--set", options.settings, "A property, as name=value; may be repeated")
         ->type_name("NAME=VALUE");
-    command.add_option("--mesh", options.files.mesh, "An OBJ file in place of the stage's mesh")->type_name("FILE");
+    command
+        .add_option("--mesh", options.files.mesh,
+                    "An OBJ file in place of the stage's mesh, or quad, cube, sphere, low-sphere, terrain")
+        ->type_name("FILE");
     command.add_option("--albedo", options.files.albedo, "A picture (sRGB) in place of the albedo")->type_name("FILE");
     command.add_option("--height", options.files.height, "A height map")->type_name("FILE");
     command.add_option("--normal", options.files.normal, "A normal map (+Y), or its heights in grey")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "mesh/bounds.h"
 #include "mesh/primitives.h"
@@ -22,12 +23,28 @@ Expected<std::string> assetPath(const std::string& name)
     return path.string();
 }
 
+namespace {
+
+const std::map<std::string, Mesh>& primitives()
+{
+    static const std::map<std::string, Mesh> all = {{"quad", makeQuad()},
+                                                    {"cube", makeCube()},
+                                                    {"sphere", makeSphere(48, 24)},
+                                                    {"low-sphere", makeSphere(12, 6)},
+                                                    {"terrain", makeTerrain(64, 64)}};
+    return all;
+}
+
+}  // namespace
+
+bool isPrimitive(const std::string& name)
+{
+    return primitives().count(name) != 0;
+}
+
 const Mesh& primitive(const std::string& name)
 {
-    static const Mesh quad = makeQuad(), cube = makeCube(), sphere = makeSphere(48, 24), terrain = makeTerrain(64, 64);
-    static const Mesh lowSphere = makeSphere(12, 6);
-    if (name == "low-sphere") return lowSphere;
-    return name == "cube" ? cube : name == "sphere" ? sphere : name == "terrain" ? terrain : quad;
+    return primitives().at(isPrimitive(name) ? name : "quad");
 }
 
 Mesh fitted(Mesh mesh)

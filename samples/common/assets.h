@@ -12,7 +12,8 @@ namespace relief::samples {
 // that was tried.
 Expected<std::string> assetPath(const std::string& name);
 
-// "quad", "cube", "sphere" or "terrain"; made once per process.
+// "quad", "cube", "sphere", "low-sphere" or "terrain"; made once per process. Any other name gives a quad.
+bool isPrimitive(const std::string& name);
 const Mesh& primitive(const std::string& name);
 
 // The mesh moved and scaled so that it fits the unit cube about the origin, as the primitives do.

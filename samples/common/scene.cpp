@@ -80,7 +80,9 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     if (!files.mesh.empty() && inputs.mesh.empty()) {
         return fail("--mesh " + files.mesh + ": this stage draws a fixed shape; leave the option out");
     }
-    if (!files.mesh.empty()) {
+    if (isPrimitive(files.mesh)) {
+        loaded->objects = arranged(files.mesh, inputs.cubesTurnedBy);
+    } else if (!files.mesh.empty()) {
         Expected<Mesh> mesh = readObj(files.mesh);
         if (!mesh) return tl::unexpected(mesh.error());
         loaded->usersMesh = fitted(std::move(*mesh));

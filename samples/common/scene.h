@@ -47,7 +47,8 @@ struct Inputs
     ImportSettings detailNormalImport = normalMapSettings(0.1f);
 };
 
-// The user's files in place of the defaults; empty: the default, "none": nothing. And how to import normal maps.
+// The user's files in place of the defaults; empty: the default, "none": nothing. `mesh` may also be the name of a
+// primitive. And how to import normal maps.
 struct InputFiles
 {
     std::string mesh, albedo, height, normal, detail, detailNormal;
@@ -84,7 +85,7 @@ struct SceneLog
     };
     std::vector<Drawn> drawn;
     std::vector<std::string> notes;  // what was left out, and what was measured; for explain
-    std::deque<Mesh> kept;  // meshes that the scene made
+    std::deque<Mesh> kept;           // meshes that the scene made
 
     // Meshes that came without uv or tangents, with them; made when a program first reads any.
     std::map<const Mesh*, std::unique_ptr<Mesh>> uvs, tangents;
@@ -166,7 +167,8 @@ void Scene::draw(const Mesh& drawnMesh, const VertexProgram& vertexProgram,
 {
     using VertexData = relief::detail::VertexDataFor<VertexProgram>;
     constexpr bool readsTangents = hasField<TANGENT, VertexData>();
-    constexpr bool readsUvs = hasField<TEXCOORD<0, float2>, VertexData>() || hasField<TEXCOORD<0, float4>, VertexData>();
+    constexpr bool readsUvs =
+        hasField<TEXCOORD<0, float2>, VertexData>() || hasField<TEXCOORD<0, float4>, VertexData>();
     bool mirrored = false;
     if constexpr (requires { vertexProgram.object.worldFromObject; }) {
         const glm::mat4 worldFromObject = firstLane(vertexProgram.object.worldFromObject);

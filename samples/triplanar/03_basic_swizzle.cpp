@@ -74,19 +74,20 @@ struct MyFragmentProgram
 
 Stage triplanar_03_basic_swizzle()
 {
-    return {.title = "Basic swizzle",
-            .section = "The Basic Swizzle",
-            .news = "The axes of the world as tangents: components change places. Right on the cube, flat on the sphere.",
-            .properties = triplanarProperties(),
-            .inputs = bricks("cube+sphere"),
-            .camera = {.position = {1.1f, 1.1f, -2.1f}},
-            .draw = [](const Scene& s) {
-                for (const Object& o : s.objects) {
-                    s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
-                           MyFragmentProgram{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(),
-                                             s.light, s.mainTex, s.normalMap});
-                }
-            }};
+    return {
+        .title = "Basic swizzle",
+        .section = "The Basic Swizzle",
+        .news = "The axes of the world as tangents: components change places. Right on the cube, flat on the sphere.",
+        .properties = triplanarProperties(),
+        .inputs = bricks("cube+sphere"),
+        .camera = {.position = {1.1f, 1.1f, -2.1f}},
+        .draw = [](const Scene& s) {
+            for (const Object& o : s.objects) {
+                s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
+                       MyFragmentProgram{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(), s.light,
+                                         s.mainTex, s.normalMap});
+            }
+        }};
 }
 
 }  // namespace relief::samples

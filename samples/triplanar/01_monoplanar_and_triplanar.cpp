@@ -1,0 +1,91 @@
+// 4.01 Monoplanar and triplanar: Normal Mapping for a Triplanar Shader, "Try Play What Now?"
+// New: colours by the position in the world, from above (left) and from three sides (right).
+#include "common/stage.h"
+#include "shading/triplanar.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float3> worldPos;
+    TEXCOORD<1, float3> worldNormal;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.worldNormal = UnityObjectToWorldNormal(object, v.normal);
+        return i;
+    }
+};
+
+template <bool TRIPLANAR>
+struct MyFragmentProgram
+{
+    Float tiling;
+    float3 ambient;
+    UnityLight light;
+    sampler2D mainTex;
+
+    float4 operator()(Interpolators i) const
+    {
+        i.worldNormal = normalize(i.worldNormal);
+        float3 albedo;
+        if constexpr (TRIPLANAR) {
+            const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
+            const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
+            const Triplanar<float4> color = tex2DTriplanar(mainTex, uv, blend);
+            albedo = (color.x * blend.x + color.y * blend.y + color.z * blend.z).rgb();
+        } else {
+            albedo = tex2D(mainTex, i.worldPos.xz() * tiling).rgb();
+        }
+        return float4(albedo * (light.color * saturate(dot(i.worldNormal, light.dir)) + ambient), 1);
+    }
+};
+
+// The hills are made into mountains; a mesh of the user's stands as it is.
+template <bool TRIPLANAR>
+void drawTerrain(const Scene& s)
+{
+    const Float height = s.number("height");
+    for (const Object& o : s.objects) {
+        const bool hills = o.mesh->name == "terrain";
+        s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject * scaling({1.0f, hills ? height[0] : 1.0f, 1.0f}))},
+               MyFragmentProgram<TRIPLANAR>{s.number("tiling"), s.vector("ambient").xyz(), s.light, s.mainTex});
+    }
+}
+
+}  // namespace
+
+Stage triplanar_01_monoplanar_and_triplanar()
+{
+    return {.title = "Monoplanar and triplanar",
+            .section = "Try Play What Now?",
+            .news = "A texture laid over mountains from above (left) and from three sides (right).",
+            .properties = triplanarProperties({{"height", glm::vec4(3.0f), 0.0f, 16.0f, 1, "of the mountains"}}),
+            .inputs = bricks("terrain"),
+            .camera = {.position = {0.0f, 1.0f, -1.6f}},
+            .draw = [](const Scene& s) {
+                s.cutCell(0, 2);
+                drawTerrain<false>(s);
+                s.cutCell(1, 2);
+                drawTerrain<true>(s);
+            }};
+}
+
+}  // namespace relief::samples

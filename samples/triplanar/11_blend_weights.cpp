@@ -1,0 +1,142 @@
+// 4.11 Blend weights: Normal Mapping for a Triplanar Shader, "Triplanar Blending"
+// New: seven ways to share a surface out among the three planes; the weights as colours (above), and bricks (below).
+// Was: one of them, 0.2 subtracted (4.10).
+#include "common/stage.h"
+#include "shading/triplanar.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float3> worldPos;
+    TEXCOORD<1, float3> worldNormal;
+};
+
+struct MyVertexProgram
+{
+    ObjectTransform object;
+
+    Interpolators operator()(VertexData v) const
+    {
+        Interpolators i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.worldNormal = UnityObjectToWorldNormal(object, v.normal);
+        return i;
+    }
+};
+
+// Properties count them from 1.
+enum class Weights
+{
+    linear = 1,
+    offset,
+    offsetTimes7,
+    power4,
+    power8,
+    power,
+    asymmetric,
+    height,
+    offsetTooLarge
+};
+
+template <Weights kind>
+struct MyFragmentProgram
+{
+    Float tiling, sharpness, heightRange;
+    float3 ambient;
+    UnityLight light;
+    sampler2D mainTex, heightMap;
+    bool asColors;
+
+    float3 Blend(const float3& normal, const Triplanar<float2>& uv) const
+    {
+        if constexpr (kind == Weights::linear) return TriplanarBlendLinear(normal);
+        if constexpr (kind == Weights::offset) return TriplanarBlendOffset(normal, 0.2f);
+        if constexpr (kind == Weights::power4) return TriplanarBlendPower4(normal);
+        if constexpr (kind == Weights::power) return TriplanarBlendPower(normal, sharpness);
+        if constexpr (kind == Weights::asymmetric) return TriplanarBlendAsymmetric(normal);
+        if constexpr (kind == Weights::height) {
+            const float3 heights = {tex2D(heightMap, uv.x).r, tex2D(heightMap, uv.y).r, tex2D(heightMap, uv.z).r};
+            return TriplanarBlendHeight(normal, heights, heightRange);
+        }
+        float3 blend = abs(normal);
+        if constexpr (kind == Weights::offsetTimes7) blend = max((blend - 0.2f) * 7.0f, float3(0.0f));
+        if constexpr (kind == Weights::power8) blend = pow(blend, 8.0f);
+        if constexpr (kind == Weights::offsetTooLarge) blend = max(blend - 0.65f, float3(0.0f));
+        return blend / (blend.x + blend.y + blend.z);
+    }
+
+    float4 operator()(Interpolators i) const
+    {
+        i.worldNormal = normalize(i.worldNormal);
+        const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
+        const float3 blend = Blend(i.worldNormal, uv);
+        if (asColors) return float4(blend, 1);
+
+        const Triplanar<float4> color = tex2DTriplanar(mainTex, uv, blend);
+        const float3 albedo = (color.x * blend.x + color.y * blend.y + color.z * blend.z).rgb();
+        return float4(albedo * (light.color * saturate(dot(i.worldNormal, light.dir)) + ambient), 1);
+    }
+};
+
+template <Weights kind>
+void drawShape(const Scene& s, bool asColors)
+{
+    for (const Object& o : s.objects) {
+        s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
+               MyFragmentProgram<kind>{s.number("tiling"), s.number("sharpness"), s.number("heightRange"),
+                                       s.vector("ambient").xyz(), s.light, s.mainTex, s.heightMap, asColors});
+    }
+}
+
+// All side by side, or the one that the property asks for.
+template <Weights... kind>
+void drawAll(const Scene& s)
+{
+    const auto only = static_cast<Weights>(static_cast<int>(s.number("weights")[0]));
+    int column = 0;
+    const auto drawOne = [&]<Weights one>() {
+        if (only == one) drawShape<one>(s, s.number("asColors")[0] != 0.0f);
+        if (only != Weights() || one == Weights::power8 || one == Weights::power) return;
+        for (const int row : {0, 1}) {
+            s.cutCell(column, 7, row, 2);
+            drawShape<one>(s, row == 0);
+        }
+        ++column;
+    };
+    (drawOne.template operator()<kind>(), ...);
+}
+
+}  // namespace
+
+Stage triplanar_11_blend_weights()
+{
+    Inputs inputs = bricks("sphere");
+    inputs.height = "bricks-heights.png";
+    return {.title = "Blend weights",
+            .section = "Triplanar Blending",
+            .news = "Linear, 0.2 off, the same times 7, fourth power, asymmetric, by height; wrong: 0.65 off.",
+            .properties = triplanarProperties(
+                {{"weights", glm::vec4(0.0f), 0.0f, 9.0f, 1, "0: side by side; 1 to 9: one kind alone"},
+                 {"asColors", glm::vec4(0.0f), 0.0f, 1.0f, 1, "of one kind: 1 shows the weights"},
+                 {"sharpness", glm::vec4(16.0f), 0.0f, 128.0f, 1, "the exponent of kind 6"},
+                 {"heightRange", glm::vec4(0.3f), 0.01f, 1.0f, 1, "of kind 8: how much lower may still be seen"}}),
+            .inputs = inputs,
+            .camera = {.position = {3.4f, 3.4f, -3.4f}},
+            .draw = [](const Scene& s) {
+                using enum Weights;
+                drawAll<linear, offset, offsetTimes7, power4, power8, power, asymmetric, height, offsetTooLarge>(s);
+            }};
+}
+
+}  // namespace relief::samples
