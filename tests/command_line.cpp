@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -94,7 +95,7 @@ TEST_CASE("command line: help at every level, and the list of stages")
     const TemporaryFolder folder;
     CHECK(run(folder.path, "").out.find("gallery") != std::string::npos);
     CHECK(run(folder.path, "--help").code == 0);
-    for (const std::string command : {"list", "render", "gallery", "view", "hash", "explain", "bench"}) {
+    for (const std::string command : {"list", "render", "gallery", "view", "hash", "explain", "bench", "report"}) {
         const Outcome help = run(folder.path, command + " --help");
         CAPTURE(command);
         CHECK(help.code == 0);
@@ -400,4 +401,54 @@ TEST_CASE("command line: bench --stage measures stages in turn, or draws and say
     checkRefused(folder.path, "bench --stage 1.06 --instructions", {"--counted-program"});
     checkRefused(folder.path, "bench --stage 1.06 --instructions --counted-program nothing", {"nothing", "counted"});
     checkRefused(folder.path, "bench --size 96x54", {"--size", "--stage"});
+}
+
+TEST_CASE("command line: a camera of the user's")
+{
+    const TemporaryFolder folder;
+    const auto hash = [&](const std::string& camera) {
+        return run(folder.path, "hash 1.21 --size 96x54" + camera).out;
+    };
+    CHECK(hash(" --camera 1,2,-3").size() > 16);
+    CHECK(hash(" --camera 1,2,-3") != hash(" --camera 3,2,-1"));
+    CHECK(hash(" --camera 1,2,-3") != hash(""));
+    for (const std::string camera : {"1,2", "1,2,", "1,2,3,4", "1,x,3", "0,0,0", "0,1,0", "nan,1,1", "1,1,1000"})
+        checkRefused(folder.path, "render 1.21 --camera " + camera, {"--camera", "X,Y,Z"});
+}
+
+TEST_CASE("command line: report triplanar writes a text, a table and a plot")
+{
+    const TemporaryFolder folder;
+    checkRefused(folder.path, "report", {"name"});
+    checkRefused(folder.path, "report speed", {"speed", "there is triplanar"});
+    const Outcome outcome = run(folder.path, "report triplanar --size 64x36 --rounds 2 --output r");
+    if (outcome.err.find("install gnuplot-nox") != std::string::npos) {
+        CHECK(outcome.code == 2);
+        MESSAGE("gnuplot is not installed: skipped");
+        return;
+    }
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out == "r/triplanar.md, .csv and .svg\n");
+    CHECK(contents(folder.path / "r/triplanar.svg").find("</svg>") != std::string::npos);
+
+    const std::string text = contents(folder.path / "r/triplanar.md");
+    CHECK(text.starts_with("# Triplanar normal mapping: cost and error\n\n    ./relief report triplanar --size 64x36"));
+    for (const std::string part :
+         {"processor: ", "compiler: ", "commit: ", "not counted", "| 6: ", "does not", "## Errors"})
+        CHECK(text.find(part) != std::string::npos);
+
+    std::map<std::string, int> rows;
+    std::stringstream table(contents(folder.path / "r/triplanar.csv"));
+    for (std::string line; std::getline(table, line);) {
+        CHECK(std::count(line.begin(), line.end(), ',') == 17);
+        CHECK((line.starts_with("table,stage,name,") || line.find(",not counted,") != std::string::npos));
+        ++rows[line.substr(0, line.find(','))];
+    }
+    // Seven methods with a line for each of four tilts and three slopes, and mesh tangents, which have no error.
+    CHECK(rows == std::map<std::string, int>{{"table", 1}, {"methods", 85}, {"weights", 9}, {"weights alone", 9}});
+
+    checkRefused(folder.path, "report triplanar --size 0x0", {"0x0"});
+    checkRefused(folder.path, "report triplanar --size 64x36 --counted-program nothing", {"nothing"});
+    checkRefused(folder.path, "report triplanar --size 64x36 --rounds 1 --output /proc/r", {"/proc/r"});
 }

@@ -17,6 +17,7 @@ struct RenderOptions
     int threads = 0;
     std::vector<std::string> settings;
     InputFiles files;
+    std::string camera;  // "X,Y,Z"; empty: the stage's
     bool showTangents = false;
     float tangentScale = 0.1f, tangentOffset = 0.01f;
 };

@@ -21,7 +21,8 @@ struct Cost
     Statistics statistics;        // of one frame
     std::vector<double> seconds;  // of a frame, one for each round
 
-    // Texture samples. Helper lanes sample too, and count: a quad on an edge shades four pixels for the one it covers.
+    // Texture samples; of a texture of one texel nothing is fetched. Helper lanes sample too, and count: a quad on an
+    // edge shades four pixels for the one that it covers.
     double fetchesPerFragment() const;
     double nanosecondsPerFragment() const;  // by the median round
 };

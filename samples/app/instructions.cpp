@@ -26,6 +26,7 @@ std::string arguments(const RenderOptions& options)
     };
     for (const std::string& setting : options.settings) add("set", setting);
     for (const std::string& setting : options.files.import) add("import", setting);
+    add("camera", options.camera);
     add("mesh", options.files.mesh);
     add("albedo", options.files.albedo);
     add("height", options.files.height);

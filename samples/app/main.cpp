@@ -32,6 +32,8 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
                     "How normal maps are imported; may be repeated: storage=rgb|dxt5nm|dxt5, bumpiness=0.05, "
                     "filter=smooth|sobel, heights=automatic|yes|no, fade=on|off")
         ->type_name("NAME=VALUE");
+    command.add_option("--camera", options.camera, "Where the camera stands; it looks at the origin")
+        ->type_name("X,Y,Z");
     command.add_flag("--show-tangents", options.showTangents, "Normals green, tangents red, binormals blue, as lines");
     command.add_option("--tangent-scale", options.tangentScale, "How long those lines are")
         ->check(CLI::Range(0.0f, 10.0f))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "common/assets.h"
 #include "common/triplanar_methods.h"
 #include "cost.h"
 #include "report.h"
@@ -14,6 +15,10 @@ namespace {
 constexpr float kTilts[] = {0.0f, 30.0f, 45.0f, 54.7356f};  // the last: a cube's corner, where the three planes meet
 constexpr float kSlopes[] = {0.1f, 0.5f, 1.0f};
 constexpr float kShownTilt = 45.0f, kShownSlope = 0.5f;  // of the first table and the plot
+
+// What is drawn: a sphere as high as the picture, seen from where the three planes meet.
+constexpr const char* kMesh = "sphere";
+constexpr const char* kCamera = "0.88,0.88,-0.88";
 
 struct Subject
 {
@@ -31,7 +36,7 @@ using Table = std::vector<Measured>;
 
 // The names are those of triplanarErrors(). Mesh tangents have no error that could be computed: it depends on the mesh.
 const std::vector<Subject> kMethods = {
-    {"4.02", "mesh tangents", {}},
+    {"4.02", "mesh tangents", {"show=1"}},
     {"4.03", "swizzle", {}},
     {"4.04", "UDN", {}},
     {"4.05", "whiteout", {}},
@@ -54,9 +59,16 @@ std::vector<Subject> weights(bool alone)
     return all;
 }
 
-RenderOptions renderOptions(const Subject& subject, const ReportOptions& options)
+// The same bricks for every stage, also for one that shows bumps only.
+Expected<RenderOptions> renderOptions(const Subject& subject, const ReportOptions& options)
 {
-    return {.stage = subject.stage, .size = options.size, .threads = 1, .settings = subject.settings};
+    const Expected<std::string> albedo = assetPath("bricks-albedo.png");
+    if (!albedo) return tl::unexpected(albedo.error());
+    RenderOptions all = {.stage = subject.stage, .size = options.size, .threads = 1, .settings = subject.settings};
+    all.camera = kCamera;
+    all.files.mesh = kMesh;
+    all.files.albedo = *albedo;
+    return all;
 }
 
 Expected<Table> measured(const std::string& what, const std::vector<Subject>& subjects, const ReportOptions& options)
@@ -66,14 +78,15 @@ Expected<Table> measured(const std::string& what, const std::vector<Subject>& su
     Table table;
     std::vector<PreparedStage> stages;
     for (const Subject& subject : subjects) {
-        const RenderOptions each = renderOptions(subject, options);
-        Expected<PreparedStage> stage = prepare(each);
+        const Expected<RenderOptions> each = renderOptions(subject, options);
+        if (!each) return tl::unexpected(each.error());
+        Expected<PreparedStage> stage = prepare(*each);
         if (!stage) return tl::unexpected(stage.error());
         stages.push_back(std::move(*stage));
         table.push_back({subject, {}, {}});
         if (options.countedProgram.empty()) continue;
         showProgress(what + ": counting the instructions of " + subject.name);
-        const Expected<double> counted = instructionsPerFragment(options.countedProgram, each);
+        const Expected<double> counted = instructionsPerFragment(options.countedProgram, *each);
         if (!counted) return tl::unexpected(counted.error());
         table.back().instructions = *counted;
     }
@@ -249,7 +262,9 @@ Expected<Difference> difference(const Subject& one, const Subject& other, const 
     if (!size) return tl::unexpected(size.error());
     std::vector<std::uint32_t> pixels[2];
     for (int i = 0; i < 2; ++i) {
-        const Expected<PreparedStage> stage = prepare(renderOptions(i == 0 ? one : other, options));
+        const Expected<RenderOptions> each = renderOptions(i == 0 ? one : other, options);
+        if (!each) return tl::unexpected(each.error());
+        const Expected<PreparedStage> stage = prepare(*each);
         if (!stage) return tl::unexpected(stage.error());
         Expected<Framebuffer> target = Framebuffer::create(size->width, size->height, ColorFormat::rgba8Srgb);
         if (!target) return tl::unexpected(target.error());
@@ -315,13 +330,12 @@ Expected<std::string> findings(const Table& methods, const Table& textured, cons
     return table;
 }
 
-std::string preamble(const Table& methods, const Table& textured, const ReportOptions& options)
+std::string preamble(const Table& methods, const ReportOptions& options)
 {
-    const auto fragments = [](const Table& table) { return std::to_string(table[0].cost.statistics.pixelsShaded); };
     return reportHead("Triplanar normal mapping: cost and error", options) + "\nDrawn at " + options.size +
-           " on one thread: the stages' own scenes, a cube and a sphere with bricks (" + fragments(methods) +
-           " fragments), and for the weights a sphere (" + fragments(textured) +
-           " fragments).\n"
+           " on one thread: a sphere with bricks, as high as the picture, from where the three planes meet (--mesh " +
+           kMesh + " --camera " + kCamera + "), " + std::to_string(methods[0].cost.statistics.pixelsShaded) +
+           " fragments.\n"
            "Every number per fragment is a whole frame's, divided by its fragments: vertices, raster and clearing are "
            "in it.\n\n"
            "- fetches: texture samples; those of helper lanes count\n"
@@ -358,7 +372,7 @@ Expected<void> reportTriplanar(const ReportOptions& options)
     if (!found) return tl::unexpected(found.error());
 
     const std::string document =
-        preamble(*methods, *textured, options) +
+        preamble(*methods, options) +
         "## Methods\n\nErrors at a tilt of 45 degrees, for bumps of slope 0.5. Mesh "
         "tangents have no bound.\n\n" +
         methodsTable(*methods) +
