@@ -421,7 +421,7 @@ TEST_CASE("command line: report triplanar writes a text, a table and a plot")
     const TemporaryFolder folder;
     checkRefused(folder.path, "report", {"name"});
     checkRefused(folder.path, "report speed", {"speed", "there is triplanar"});
-    const Outcome outcome = run(folder.path, "report triplanar --size 64x36 --rounds 2 --output r");
+    const Outcome outcome = run(folder.path, "report triplanar --size 64x36 --rounds 1 --output r");
     if (outcome.err.find("install gnuplot-nox") != std::string::npos) {
         CHECK(outcome.code == 2);
         MESSAGE("gnuplot is not installed: skipped");
