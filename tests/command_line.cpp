@@ -339,6 +339,22 @@ TEST_CASE("command line: tangents as lines over any stage")
     checkRefused(folder.path, "render 1.21 --show-tangents --tangent-scale -1", {"--tangent-scale"});
 }
 
+TEST_CASE("command line: explain counts the mip levels of files and of a texture that the stage made")
+{
+    const TemporaryFolder folder;
+    const auto built = [&](const std::string& arguments) {
+        const Outcome json = run(folder.path, "explain " + arguments + " --json");
+        return nlohmann::json::parse(json.out)["counts"]["mip levels built"].get<int>();
+    };
+    CHECK(built("1.01 --size 96x54") == 0);  // it has no texture
+    CHECK(built("1.09 --size 96x54") > 1);
+    const int baked = built("1.23 --size 96x54");
+    CHECK(baked > 1);
+    // Alone in the picture: of the chain that a map of 256 x 256 texels has.
+    CHECK(baked <= 9);
+    CHECK(run(folder.path, "explain 1.23 --size 96x54").out.find("of 9\n") != std::string::npos);
+}
+
 TEST_CASE("command line: explain names the pass that is left out because its light does not reach")
 {
     const TemporaryFolder folder;

@@ -135,6 +135,26 @@ TEST_CASE("documents: every relative link resolves")
     CHECK(checked > 30);
 }
 
+TEST_CASE("documents: the lines that porting.md shows of a file stand in that file")
+{
+    const std::string page = contents(kSource / "docs/porting.md");
+    const std::regex block("[Ii]n `([^`]+)`:\n\n```cpp\n([^`]*)```");
+    int checked = 0;
+    for (auto it = std::sregex_iterator(page.begin(), page.end(), block); it != std::sregex_iterator(); ++it) {
+        const fs::path file = kSource / (*it)[1].str();
+        CAPTURE(file);
+        REQUIRE(fs::exists(file));
+        const std::string text = contents(file);
+        std::stringstream lines((*it)[2].str());
+        for (std::string line; std::getline(lines, line);) {
+            CAPTURE(line);
+            CHECK(text.find(line + "\n") != std::string::npos);
+            ++checked;
+        }
+    }
+    CHECK(checked >= 30);
+}
+
 TEST_CASE("documents: the engine's folders include downwards only")
 {
     const std::map<std::string, std::set<std::string>> below = {

@@ -189,7 +189,7 @@ TEST_CASE("Float: saturate stays in 0 to 1 and has no negative zero")
               manyFloats(), [](Float a) { return saturate(a); }, reference) == "");
 }
 
-TEST_CASE("Float: clamp, with NaN to the lower limit")
+TEST_CASE("Float: clamp, S-707 with NaN to the lower limit")
 {
     const auto reference = [](float a) { return a > -2.0f ? (a < 3.5f ? a : 3.5f) : -2.0f; };
     CHECK(difference(

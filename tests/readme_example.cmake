@@ -1,31 +1,32 @@
-# Compiles and runs the C++ example of README.md, word for word. Called as:
-#   cmake -DREADME=... -DFOLDER=... -DCOMPILER=... "-DFLAGS=..." "-DLIBRARIES=..." -P readme_example.cmake
-file(READ ${README} text)
-string(REGEX MATCH "```cpp\n([^`]*)```" found "${text}")
-if(NOT found)
-  message(FATAL_ERROR "README.md has no C++ example")
-endif()
+# Compiles and runs the first C++ example of a page, word for word; it must write PICTURE.png. Called as:
+#   cmake -DPAGE=... -DPICTURE=... -DLINES=... -DFOLDER=... -DCOMPILER=... "-DFLAGS=..." "-DLIBRARIES=..."
+#     -P readme_example.cmake
+file(READ ${PAGE} text)
 # A semicolon is CMake's list separator: write the text between the fences as it stands.
 string(FIND "${text}" "```cpp\n" begin)
+if(begin EQUAL -1)
+  message(FATAL_ERROR "${PAGE} has no C++ example")
+endif()
 math(EXPR begin "${begin} + 7")
 string(SUBSTRING "${text}" ${begin} -1 rest)
 string(FIND "${rest}" "```" length)
 string(SUBSTRING "${rest}" 0 ${length} code)
 string(REGEX MATCHALL "\n" lines "${code}")
 list(LENGTH lines count)
-if(count GREATER 30)
-  message(FATAL_ERROR "the example has ${count} lines; it must stay under 30")
+if(count GREATER ${LINES})
+  message(FATAL_ERROR "the example has ${count} lines; at most ${LINES} are allowed")
 endif()
 file(MAKE_DIRECTORY ${FOLDER})
-file(WRITE ${FOLDER}/triangle.cpp "${code}")
+file(REMOVE ${FOLDER}/${PICTURE}.png)
+file(WRITE ${FOLDER}/${PICTURE}.cpp "${code}")
 separate_arguments(flags UNIX_COMMAND "${FLAGS}")
 separate_arguments(libraries UNIX_COMMAND "${LIBRARIES}")
-execute_process(COMMAND ${COMPILER} ${flags} triangle.cpp -o triangle ${libraries}
+execute_process(COMMAND ${COMPILER} ${flags} ${PICTURE}.cpp -o ${PICTURE} ${libraries}
   WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE failed)
 if(failed)
-  message(FATAL_ERROR "the example of README.md does not compile")
+  message(FATAL_ERROR "the example of ${PAGE} does not compile")
 endif()
-execute_process(COMMAND ./triangle WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE failed)
-if(failed OR NOT EXISTS ${FOLDER}/triangle.png)
-  message(FATAL_ERROR "the example of README.md ran, but wrote no picture")
+execute_process(COMMAND ./${PICTURE} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE failed)
+if(failed OR NOT EXISTS ${FOLDER}/${PICTURE}.png)
+  message(FATAL_ERROR "the example of ${PAGE} ran, but wrote no picture")
 endif()

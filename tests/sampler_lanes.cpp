@@ -231,3 +231,26 @@ TEST_CASE("sampler_lanes: one hash of everything, for any number of lanes, compi
     CHECK(total.taps > 1000);
     CHECK(hash == 7090569058970184443u);
 }
+
+TEST_CASE("sampler_lanes: tex2DWhere is tex2D where it is needed, 0 elsewhere, and fetches nothing else (S-515)")
+{
+    const Texture texture = randomTexture(TexelFormat::rgba8, 64, 64);
+    const sampler2D s{.texture = &texture};
+    Random random(515);
+    for (int round = 0; round < 64; ++round) {
+        const float2 uv = evenly(random(0.1f, 9.0f));
+        const unsigned needed = round == 0 ? 0u : round == 1 ? kAllLanes : random.bits() & kAllLanes;
+        const unsigned active = round % 3 == 0 ? kAllLanes : wholeQuads(random.bits() & kAllLanes);
+        const ActiveLanes counting(active);
+        const float4 all = tex2D(s, uv);
+        const FetchCounters before = fetchCounters;
+        const float4 some = tex2DWhere(Mask::fromBits(needed), s, uv);
+        CHECK(activeLanes == active);
+        CHECK(fetchCounters.trilinear - before.trilinear == static_cast<std::uint64_t>(std::popcount(needed & active)));
+        for (int i = 0; i < kLanes; ++i) {
+            if ((active >> i & 1u) == 0) continue;
+            const bool wanted = (needed >> i & 1u) != 0;
+            CHECK(sameBits(some, wanted ? all : float4(0.0f), i));
+        }
+    }
+}

@@ -1,6 +1,8 @@
 // Structs of semantics: how their fields are counted, listed and walked, and what counts as none.
 #include "hlsl/semantics.h"
 
+#include "hlsl/intrinsics.h"
+
 #include <string>
 #include <type_traits>
 
@@ -264,6 +266,22 @@ TEST_CASE("semantics: a field is used like its value")
     CHECK((i.fade * 2.0f)[0] == 0.5f);
     CHECK(i.normal.zyx().x[0] == 3.0f);
     CHECK(i.uv.xy().y[kLanes - 1] == 0.5f);
+}
+
+TEST_CASE("semantics: a field in an intrinsic function is its value, where GLM has a function of that name too")
+{
+    Interpolators i;
+    i.normal = float3(-3.0f, 0.0f, 4.0f);
+    i.fade = -0.25f;
+    CHECK(abs(i.normal).x[0] == 3.0f);
+    CHECK(sign(i.normal).x[0] == -1.0f);
+    CHECK(length(i.normal)[0] == 5.0f);
+    CHECK(dot(i.normal, i.normal)[0] == 25.0f);
+    CHECK(min(i.normal, i.normal).z[0] == 4.0f);
+    CHECK(max(i.normal, i.normal).z[0] == 4.0f);
+    CHECK(abs(i.fade)[0] == 0.25f);
+    CHECK(max(i.fade, i.fade)[0] == -0.25f);
+    static_assert(std::is_same_v<decltype(abs(i.normal)), float3>);
 }
 
 TEST_CASE("semantics: one semantic is made from another of the same value")

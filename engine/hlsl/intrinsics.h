@@ -2,6 +2,7 @@
 // pow, sin and cos of a single Float are in lanes/. Sums are taken from left to right: the order is part of the result.
 #pragma once
 
+#include "hlsl/semantics.h"
 #include "hlsl/types.h"
 #include "lanes/math.h"
 
@@ -201,5 +202,39 @@ inline float3x3 upper3x3(const float4x4& m)
 {
     return {m[0].xyz(), m[1].xyz(), m[2].xyz()};
 }  // HLSL: (float3x3)m
+
+// --- of the fields of a struct ---
+
+// A field in an intrinsic function stands for its value. For these GLM has templates that would take the field's type.
+template <class Meaning, class T>
+auto abs(const Semantic<Meaning, T>& v)
+{
+    return abs(static_cast<const T&>(v));
+}
+template <class Meaning, class T>
+auto sign(const Semantic<Meaning, T>& v)
+{
+    return sign(static_cast<const T&>(v));
+}
+template <class Meaning, class T>
+auto length(const Semantic<Meaning, T>& v)
+{
+    return length(static_cast<const T&>(v));
+}
+template <class Meaning, class T>
+auto dot(const Semantic<Meaning, T>& a, const Semantic<Meaning, T>& b)
+{
+    return dot(static_cast<const T&>(a), static_cast<const T&>(b));
+}
+template <class Meaning, class T>
+auto min(const Semantic<Meaning, T>& a, const Semantic<Meaning, T>& b)
+{
+    return min(static_cast<const T&>(a), static_cast<const T&>(b));
+}
+template <class Meaning, class T>
+auto max(const Semantic<Meaning, T>& a, const Semantic<Meaning, T>& b)
+{
+    return max(static_cast<const T&>(a), static_cast<const T&>(b));
+}
 
 }  // namespace relief

@@ -36,38 +36,6 @@ struct Semantic : T
     requires std::convertible_to<U, T> Semantic(const U& source) : T(source) {}
 };
 
-// A field in an intrinsic function stands for its value. For these GLM has templates that would take the field's type.
-template <class Meaning, class T>
-auto abs(const Semantic<Meaning, T>& v)
-{
-    return abs(static_cast<const T&>(v));
-}
-template <class Meaning, class T>
-auto sign(const Semantic<Meaning, T>& v)
-{
-    return sign(static_cast<const T&>(v));
-}
-template <class Meaning, class T>
-auto length(const Semantic<Meaning, T>& v)
-{
-    return length(static_cast<const T&>(v));
-}
-template <class Meaning, class T>
-auto dot(const Semantic<Meaning, T>& a, const Semantic<Meaning, T>& b)
-{
-    return dot(static_cast<const T&>(a), static_cast<const T&>(b));
-}
-template <class Meaning, class T>
-auto min(const Semantic<Meaning, T>& a, const Semantic<Meaning, T>& b)
-{
-    return min(static_cast<const T&>(a), static_cast<const T&>(b));
-}
-template <class Meaning, class T>
-auto max(const Semantic<Meaning, T>& a, const Semantic<Meaning, T>& b)
-{
-    return max(static_cast<const T&>(a), static_cast<const T&>(b));
-}
-
 namespace semantic {
 
 struct Plain

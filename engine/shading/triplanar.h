@@ -7,6 +7,8 @@
 // whether the world is left- or right-handed; only which sides show a picture mirrored does (docs/triplanar_signs.md).
 #pragma once
 
+#include <cmath>
+
 #include "hlsl/intrinsics.h"
 #include "texture/sampler.h"
 
@@ -22,6 +24,19 @@ struct Triplanar
 inline Triplanar<float2> TriplanarUV(const float3& position)
 {
     return {position.zy(), position.xz(), position.xy()};
+}
+
+// An object's matrix with its place reduced by whole repetitions of a texture that repeats `tiling` times per unit: for
+// positions to take uv from. The texture stays where it is; but far from the origin floats are too coarse for it, a
+// sixteenth of a unit at a million. NaN and infinite places are left alone.
+inline glm::mat4 withoutWholeTiles(glm::mat4 worldFromObject, float tiling)
+{
+    for (int i = 0; i < 3; ++i) {
+        const double tiles = static_cast<double>(worldFromObject[3][i]) * static_cast<double>(tiling);
+        if (!(std::abs(tiles) < 1e300) || tiling == 0.0f) continue;
+        worldFromObject[3][i] = static_cast<float>((tiles - std::floor(tiles)) / static_cast<double>(tiling));
+    }
+    return worldFromObject;
 }
 
 // -1 or 1 for each component: on which side of a plane the surface lies. Never 0, as sign() is at 0: that would take a

@@ -1,5 +1,6 @@
 // explain: what drawing a stage took, and what was left out, as counted while it ran.
 #include <cstdio>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -16,17 +17,21 @@ struct SlotUse
     int declared = 0, used = 0;
 };
 
-// Mip levels that exist in memory and that would, if every texture had its whole chain.
+// Mip levels that exist in memory and that would, if every texture had its whole chain: of the stage's inputs and of
+// the textures that it made.
 struct MipUse
 {
     int built = 0, whole = 0;
 };
 
-MipUse mipUse(const LoadedInputs& inputs)
+MipUse mipUse(const LoadedInputs& inputs, const SceneLog& log)
 {
-    MipUse use;
+    std::set<const Texture*> textures = log.textures;
     for (const auto& texture : {inputs.albedo, inputs.height, inputs.normal, inputs.detail, inputs.detailNormal}) {
-        if (!texture) continue;
+        if (texture) textures.insert(texture.get());
+    }
+    MipUse use;
+    for (const Texture* texture : textures) {
         use.built += texture->levelsBuilt();
         use.whole += texture->levelCount();
     }
@@ -96,7 +101,7 @@ Expected<void> explain(const RenderOptions& options, bool json)
     Frame frame(*target, {.threads = options.threads});
     prepared->record(frame, size->width, size->height);
     const Statistics statistics = frame.run();
-    const MipUse mips = mipUse(*prepared->inputs);
+    const MipUse mips = mipUse(*prepared->inputs, *prepared->log);
 
     SlotUse slots;
     for (int draw = 0; draw < frame.drawCount(); ++draw) {

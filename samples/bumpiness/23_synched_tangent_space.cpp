@@ -94,7 +94,7 @@ Stage bumpiness_23_synched_tangent_space()
             .camera = {.position = {0.0f, 0.4f, -3.7f}},
             .draw = [](const Scene& s) {
                 const BakedSphere& baked = bakedSphere();
-                const sampler2D map = {.texture = &baked.normalMap};
+                const sampler2D map = s.samplerOf(baked.normalMap);
                 const ObjectTransform object = s.object(glm::mat4(1.0f));
                 const auto draw = [&](const Mesh& mesh, const sampler2D& normalMap, bool renormalise, int column) {
                     s.cutCell(column, 4);

@@ -68,7 +68,7 @@ struct MyFragmentProgram
         const Float NdotL = dot(normalDirection, lightDirection);
         const float3 diffuseReflection = lightColor0 * color.xyz() * (attenuation * max(Float(0.0f), NdotL));
 
-        const Float RdotV = max(Float(0.0f), dot(reflect(-lightDirection, normalDirection), viewDirection));
+        const Float RdotV = saturate(dot(reflect(-lightDirection, normalDirection), viewDirection));
         const Float cut = select(NdotL < 0.0f, Float(0.0f), select(tutorialForm > 0.0f, Float(1.0f), NdotL));
         const float3 specularReflection = lightColor0 * specColor.xyz() * (attenuation * pow(RdotV, shininess) * cut);
         return float4(ambientLighting + diffuseReflection + specularReflection, 1);

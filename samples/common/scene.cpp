@@ -117,6 +117,7 @@ void SceneLog::clear()
     drawn.clear();
     notes.clear();
     kept.clear();
+    textures.clear();
 }
 
 Scene::Scene(Frame& target, SceneLog& sceneLog, int w, int h, const Camera& camera, const LoadedInputs& inputs,
@@ -166,6 +167,12 @@ ObjectTransform Scene::lying() const
 const Mesh& Scene::keep(Mesh made) const
 {
     return log.kept.emplace_back(std::move(made));
+}
+
+sampler2D Scene::samplerOf(const Texture& made) const
+{
+    log.textures.insert(&made);
+    return {.texture = &made};
 }
 
 void Scene::note(const std::string& line) const

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,8 @@ struct SceneLog
     // Meshes that came without uv or tangents, with them; made when a program first reads any.
     std::map<const Mesh*, std::unique_ptr<Mesh>> uvs, tangents;
 
+    std::set<const Texture*> textures;  // that the stage made; explain counts their mip levels
+
     Viewport viewport;  // of the next draws
     Rectangle scissor;
 
@@ -143,8 +146,10 @@ public:
     // camera in each: what stands at the origin looks the same in all of them.
     void cutCell(int column, int columns, int row = 0, int rows = 1) const;
 
-    // For meshes that a stage makes: they live until the frame has run. And a line for explain.
+    // For meshes that a stage makes: they live until the frame has run. For textures that it makes and that live
+    // longer: explain knows of them. And a line for explain.
     const Mesh& keep(Mesh made) const;
+    sampler2D samplerOf(const Texture& made) const;
     void note(const std::string& line) const;
 
     // The mesh, or, if it came without, the same with uv by longitude and latitude, or with tangents; made once.
