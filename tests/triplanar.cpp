@@ -432,6 +432,26 @@ TEST_CASE("triplanar: S-713 six sides, flipped or not: each is lit as a real bum
     }
 }
 
+TEST_CASE("triplanar: green down is one sign, whether v runs up or down, and with Z up the swizzles are these")
+{
+    // Heights rise by hu along u and by hv along v on the plane x = 0, seen from +x.
+    const float hu = 0.3f, hv = -0.2f;
+    const float3 n = {1, 0, 0}, weights = {1, 0, 0};
+    const auto withBump = [&](const float3& bump) {
+        return lane(TriplanarNormal({bump, bump, bump}, n, weights, Whiteout()));
+    };
+    // v up (y), and a map that stores the way down: -(-hv).
+    const float3 greenDown = normalize(float3(-hu, hv, 1.0f));
+    CHECK(angle(withBump(greenDown * float3(1, -1, 1)), {1.0, 0.2, -0.3}) <= 1e-4);
+    // v down (-y), and a map whose y is along v: the surface is x = hu z + hv (-y).
+    const float3 alongV = normalize(float3(-hu, -hv, 1.0f));
+    CHECK(angle(withBump(alongV * float3(1, -1, 1)), {1.0, -0.2, -0.3}) <= 1e-4);
+    // Z up: u along y, v along z.
+    const float3 bump = normalize(float3(-hu, -hv, 1.0f));
+    CHECK(angle(lane(bump.zxy()), {1.0, -0.3, 0.2}) <= 1e-4);
+    CHECK(sameBits(bump.zxy().yzx(), bump));
+}
+
 TEST_CASE("triplanar: which sides show the picture mirrored, in a left-handed and in a right-handed world")
 {
     // docs/triplanar_signs.md: 1 where u runs to the right for who looks at the side, -1 where the picture is mirrored.

@@ -1,5 +1,6 @@
 // 4.01 Monoplanar and triplanar: Normal Mapping for a Triplanar Shader, "Try Play What Now?"
 // New: colours by the position in the world, from above (left) and from three sides (right).
+// Was: colours by the uv of the mesh (3.05).
 #include "common/stage.h"
 #include "shading/triplanar.h"
 

@@ -87,11 +87,13 @@ void drawObjects(const Scene& s)
 
 Stage triplanar_09_faceted_normals()
 {
+    Inputs inputs = bricks("low-sphere");
+    inputs.albedo = kNone;
     return {.title = "Faceted normals",
             .section = "Screen Space Partial Derivatives",
             .news = "The triangle's own normal from two differences (right), instead of the interpolated one (left).",
-            .properties = triplanarProperties(),
-            .inputs = bricks("low-sphere"),
+            .properties = triplanarProperties({}, 60.0f),
+            .inputs = inputs,
             .camera = {.position = {0.9f, 0.9f, -1.7f}},
             .draw = [](const Scene& s) {
                 s.cutCell(0, 2);

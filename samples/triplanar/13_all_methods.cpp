@@ -153,7 +153,7 @@ Stage triplanar_13_all_methods()
             .section = "Chasing the truth",
             .news = "Eight methods (above), and the angles to two truths: along the projection, along the normal.",
             .properties =
-                triplanarProperties({{"maximumAngle", glm::vec4(40.0f), 1.0f, 180.0f, 1, "degrees that are red"}}),
+                triplanarProperties({{"maximumAngle", glm::vec4(20.0f), 1.0f, 180.0f, 1, "degrees that are red"}}),
             .inputs = bricks("sphere"),
             .camera = {.position = {2.9f, 2.9f, -5.1f}},
             .draw = [](const Scene& s) {
