@@ -419,6 +419,33 @@ TEST_CASE("command line: bench --stage measures stages in turn, or draws and say
     checkRefused(folder.path, "bench --size 96x54", {"--size", "--stage"});
 }
 
+TEST_CASE("command line: bench --instructions divides what valgrind counts in one frame by the pixels")
+{
+    const TemporaryFolder folder;
+    const auto valgrind = [&](const std::string& script) {
+        write(folder.path / "valgrind", "#!/bin/sh\n" + script);
+        fs::permissions(folder.path / "valgrind", fs::perms::owner_all);
+    };
+    const std::string bench = "bench --stage 1.06 --size 96x54 --rounds 1 --instructions --counted-program ./valgrind";
+    const std::string path = "PATH='" + folder.path.string() + "':\"$PATH\"";
+    // In place of valgrind: 5000 instructions before the first frame, 1250 for each, 100 pixels.
+    valgrind(R"script([ "$1" = --version ] && exit 0
+for frames; do :; done
+echo 100
+echo "==7== Collected : $((5000 + frames * 1250))" >&2
+)script");
+    const Outcome counted = run(folder.path, bench, path);
+    CAPTURE(counted.err);
+    CHECK(counted.code == 0);
+    CHECK(counted.out.find("instructions/fragment") != std::string::npos);
+    CHECK(counted.out.find(" 12.5 ") != std::string::npos);
+
+    valgrind("[ \"$1\" = --version ]\n");
+    checkRefused(folder.path, bench, {"not counted", "valgrind --tool=callgrind", "--stage '1.06'"}, path);
+    valgrind("exit 1\n");
+    checkRefused(folder.path, bench, {"install valgrind"}, path);
+}
+
 TEST_CASE("command line: a camera of the user's")
 {
     const TemporaryFolder folder;

@@ -85,7 +85,7 @@ Expected<void> plotReport(const ReportOptions& options, const std::string& setti
     const std::string script = RELIEF_SOURCE_FOLDER "/docs/report/" + options.name + ".gnuplot";
     const std::string command =
         "cd " + quoted(options.output) + " && gnuplot -e " + quoted(settings) + " " + quoted(script);
-    const std::optional<std::string> svg = outputOf(command);
+    const std::optional<std::string> svg = outputOf(command + " 2>/dev/null");
     if (!svg || !svg->starts_with("<?xml")) {
         return fail(options.name + ".svg was not drawn; run this to see why: " + command);
     }
