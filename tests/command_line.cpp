@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -94,7 +95,7 @@ TEST_CASE("command line: help at every level, and the list of stages")
     const TemporaryFolder folder;
     CHECK(run(folder.path, "").out.find("gallery") != std::string::npos);
     CHECK(run(folder.path, "--help").code == 0);
-    for (const std::string command : {"list", "render", "gallery", "view", "hash", "explain", "bench"}) {
+    for (const std::string command : {"list", "render", "gallery", "view", "hash", "explain", "bench", "report"}) {
         const Outcome help = run(folder.path, command + " --help");
         CAPTURE(command);
         CHECK(help.code == 0);
@@ -384,4 +385,113 @@ TEST_CASE("command line: the gallery has every picture and a page that names the
         CHECK(page.find(stage.title) != std::string::npos);
         CHECK(page.find(stage.news) != std::string::npos);
     }
+}
+
+TEST_CASE("command line: bench --stage measures stages in turn, or draws and says how many pixels it shaded")
+{
+    const TemporaryFolder folder;
+    const Outcome table = run(folder.path, "bench --stage 1.01 --stage 1.06 --size 96x54 --rounds 2");
+    CHECK(table.code == 0);
+    std::stringstream lines(table.out);
+    std::string line, word;
+    CHECK((std::getline(lines, line) && line.find("96x54, threads: 1") != std::string::npos));
+    CHECK((std::getline(lines, line) && line.find("ratio to 1.01") != std::string::npos));
+    for (const std::string stage : {"1.01", "1.06"}) {
+        REQUIRE(std::getline(lines, line));
+        CHECK(line.starts_with(stage));
+        CHECK(line.find("...") != std::string::npos);
+    }
+    CHECK_FALSE(std::getline(lines, line));
+
+    const auto counts = nlohmann::json::parse(run(folder.path, "explain 1.06 --json --size 96x54").out)["counts"];
+    CHECK(run(folder.path, "bench --stage 1.06 --size 96x54 --frames 2").out ==
+          std::to_string(counts["pixels shaded"].get<int>()) + "\n");
+
+    checkRefused(folder.path, "bench --stage 9.99", {"9.99", "relief list"});
+    checkRefused(folder.path, "bench --stage 1.06 --frames 0", {"--frames"});
+    checkRefused(folder.path, "bench --stage 1.06 --frames many", {"--frames"});
+    checkRefused(folder.path, "bench --stage 1.06 --rounds 0", {"--rounds"});
+    checkRefused(folder.path, "bench --stage 1.06 --set depth=1", {"depth", "bumpScale"});
+    checkRefused(folder.path, "bench --stage 1.06 --benchmark_filter=x", {"benchmark_filter"});
+    checkRefused(folder.path, "bench --stage 1.06 --frames 1 --instructions", {"--instructions"});
+    checkRefused(folder.path, "bench --stage 1.06 --instructions", {"--counted-program"});
+    checkRefused(folder.path, "bench --stage 1.06 --instructions --counted-program nothing", {"nothing", "counted"});
+    checkRefused(folder.path, "bench --size 96x54", {"--size", "--stage"});
+}
+
+TEST_CASE("command line: bench --instructions divides what valgrind counts in one frame by the pixels")
+{
+    const TemporaryFolder folder;
+    const auto valgrind = [&](const std::string& script) {
+        write(folder.path / "valgrind", "#!/bin/sh\n" + script);
+        fs::permissions(folder.path / "valgrind", fs::perms::owner_all);
+    };
+    const std::string bench = "bench --stage 1.06 --size 96x54 --rounds 1 --instructions --counted-program ./valgrind";
+    const std::string path = "PATH='" + folder.path.string() + "':\"$PATH\"";
+    // In place of valgrind: 5000 instructions before the first frame, 1250 for each, 100 pixels.
+    valgrind(R"script([ "$1" = --version ] && exit 0
+for frames; do :; done
+echo 100
+echo "==7== Collected : $((5000 + frames * 1250))" >&2
+)script");
+    const Outcome counted = run(folder.path, bench, path);
+    CAPTURE(counted.err);
+    CHECK(counted.code == 0);
+    CHECK(counted.out.find("instructions/fragment") != std::string::npos);
+    CHECK(counted.out.find(" 12.5 ") != std::string::npos);
+
+    valgrind("[ \"$1\" = --version ]\n");
+    checkRefused(folder.path, bench, {"not counted", "valgrind --tool=callgrind", "--stage '1.06'"}, path);
+    valgrind("exit 1\n");
+    checkRefused(folder.path, bench, {"install valgrind"}, path);
+}
+
+TEST_CASE("command line: a camera of the user's")
+{
+    const TemporaryFolder folder;
+    const auto hash = [&](const std::string& camera) {
+        return run(folder.path, "hash 1.21 --size 96x54" + camera).out;
+    };
+    CHECK(hash(" --camera 1,2,-3").size() > 16);
+    CHECK(hash(" --camera 1,2,-3") != hash(" --camera 3,2,-1"));
+    CHECK(hash(" --camera 1,2,-3") != hash(""));
+    for (const std::string camera : {"1,2", "1,2,", "1,2,3,4", "1,x,3", "0,0,0", "0,1,0", "nan,1,1", "1,1,1000"})
+        checkRefused(folder.path, "render 1.21 --camera " + camera, {"--camera", "X,Y,Z"});
+}
+
+TEST_CASE("command line: report triplanar writes a text, a table and a plot")
+{
+    const TemporaryFolder folder;
+    checkRefused(folder.path, "report", {"name"});
+    checkRefused(folder.path, "report speed", {"speed", "there is triplanar"});
+    const Outcome outcome = run(folder.path, "report triplanar --size 64x36 --rounds 1 --output r");
+    if (outcome.err.find("install gnuplot-nox") != std::string::npos) {
+        CHECK(outcome.code == 2);
+        MESSAGE("gnuplot is not installed: skipped");
+        return;
+    }
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out == "r/triplanar.md, .csv and .svg\n");
+    CHECK(contents(folder.path / "r/triplanar.svg").find("</svg>") != std::string::npos);
+
+    const std::string text = contents(folder.path / "r/triplanar.md");
+    CHECK(text.starts_with("# Triplanar normal mapping: cost and error\n\n    ./relief report triplanar --size 64x36"));
+    for (const std::string part :
+         {"processor: ", "compiler: ", "commit: ", "not counted", "| 6: ", "does not", "## Errors"})
+        CHECK(text.find(part) != std::string::npos);
+
+    std::map<std::string, int> rows;
+    std::stringstream table(contents(folder.path / "r/triplanar.csv"));
+    for (std::string line; std::getline(table, line);) {
+        CHECK(std::count(line.begin(), line.end(), ',') == 17);
+        CHECK((line.starts_with("table,stage,name,") || line.find(",not counted,") != std::string::npos));
+        ++rows[line.substr(0, line.find(','))];
+    }
+    // Seven methods with a line for each of four tilts and three slopes, and mesh tangents, which have no error.
+    CHECK(rows == std::map<std::string, int>{{"table", 1}, {"methods", 85}, {"weights", 9}, {"weights alone", 9}});
+
+    checkRefused(folder.path, "report triplanar --size 0x0", {"0x0"});
+    checkRefused(folder.path, "report triplanar --size 64x36 --counted-program nothing", {"nothing"});
+    checkRefused(folder.path, "report triplanar --size 64x36 --rounds 1 --output /proc/r", {"/proc/r"});
 }

@@ -17,6 +17,7 @@ struct RenderOptions
     int threads = 0;
     std::vector<std::string> settings;
     InputFiles files;
+    std::string camera;  // "X,Y,Z"; empty: the stage's
     bool showTangents = false;
     float tangentScale = 0.1f, tangentOffset = 0.01f;
 };
@@ -26,8 +27,27 @@ struct Size
     int width, height;
 };
 
+// What `bench --stage` measures. --set and the files go to every stage.
+struct BenchOptions
+{
+    RenderOptions render = {.threads = 1};
+    std::vector<std::string> stages;
+    int rounds = 15;
+    int frames = 0;  // more than 0: draw as many and measure nothing
+    bool instructions = false;
+    std::string countedProgram;
+};
+
 // "WIDTHxHEIGHT", 1 to 16384 each.
 Expected<Size> parseSize(const std::string& text);
+
+// What `report` measures, and where the files go.
+struct ReportOptions
+{
+    std::string name, output = "docs/report", size = "960x540";
+    int rounds = 31;
+    std::string countedProgram;  // empty: instructions are not counted
+};
 
 Expected<void> list(bool json);
 Expected<void> render(const RenderOptions& options, const std::string& output);
@@ -37,6 +57,8 @@ Expected<void> explain(const RenderOptions& options, bool json);
 Expected<void> gallery(const std::string& folder, int threads);
 Expected<void> view(const RenderOptions& options, int frames);
 Expected<void> bench(const std::vector<std::string>& arguments);
+Expected<void> benchStages(const BenchOptions& options);
+Expected<void> report(const ReportOptions& options);
 
 // The stage that the options name, with their settings and files.
 Expected<PreparedStage> prepare(const RenderOptions& options);

@@ -10,9 +10,8 @@ namespace {
 using namespace relief;
 using namespace relief::samples;
 
-void addInputOptions(CLI::App& command, RenderOptions& options)
+void addPictureOptions(CLI::App& command, RenderOptions& options)
 {
-    command.add_option("stage", options.stage, "A stage, by number (1.07) or name (07_central_difference)")->required();
     command.add_option("--size", options.size, "Picture size in pixels")->type_name("WxH")->capture_default_str();
     command.add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
     command.add_option("--set", options.settings, "A property, as name=value; may be repeated")
@@ -33,6 +32,8 @@ void addInputOptions(CLI::App& command, RenderOptions& options)
                     "How normal maps are imported; may be repeated: storage=rgb|dxt5nm|dxt5, bumpiness=0.05, "
                     "filter=smooth|sobel, heights=automatic|yes|no, fade=on|off")
         ->type_name("NAME=VALUE");
+    command.add_option("--camera", options.camera, "Where the camera stands; it looks at the origin")
+        ->type_name("X,Y,Z");
     command.add_flag("--show-tangents", options.showTangents, "Normals green, tangents red, binormals blue, as lines");
     command.add_option("--tangent-scale", options.tangentScale, "How long those lines are")
         ->check(CLI::Range(0.0f, 10.0f))
@@ -40,6 +41,38 @@ void addInputOptions(CLI::App& command, RenderOptions& options)
     command.add_option("--tangent-offset", options.tangentOffset, "How far from the surface they begin")
         ->check(CLI::Range(0.0f, 10.0f))
         ->capture_default_str();
+}
+
+void addInputOptions(CLI::App& command, RenderOptions& options)
+{
+    command.add_option("stage", options.stage, "A stage, by number (1.07) or name (07_central_difference)")->required();
+    addPictureOptions(command, options);
+}
+
+// All but --stage are of no use without it.
+void addBenchOptions(CLI::App& command, BenchOptions& options)
+{
+    addPictureOptions(command, options.render);
+    command.add_option("--rounds", options.rounds, "How often each stage has its turn")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    CLI::Option* const frames = command
+                                    .add_option("--frames", options.frames,
+                                                "Draws as many frames of each stage, prints how many pixels one "
+                                                "shades, and measures nothing")
+                                    ->check(CLI::Range(1, 1000000));
+    command.add_flag("--instructions", options.instructions, "Counts instructions too, with valgrind: takes a while")
+        ->excludes(frames);
+    command.add_option("--counted-program", options.countedProgram, "The relief that they are counted in")
+        ->type_name("FILE");
+    for (CLI::Option* const option : command.get_options()) {
+        if (option != command.get_help_ptr()) option->group("With --stage");
+    }
+    command
+        .add_option("--stage", options.stages,
+                    "Measures stages, by number or name, on one thread unless told otherwise; may be repeated: they "
+                    "take turns, and each is compared with the first")
+        ->allow_extra_args(false);
 }
 
 }  // namespace
@@ -53,7 +86,6 @@ int main(int argc, char** argv)
     bool json = false;
     std::string output, binormal;
     int tileSize = kDefaultTileSize, frames = 0;
-    std::vector<std::string> benchArguments;
 
     CLI::App* command = app.add_subcommand("list", "Shows all stages");
     command->add_flag("--json", json, "As JSON, with the properties of each");
@@ -93,9 +125,42 @@ int main(int argc, char** argv)
     command->add_flag("--json", json, "As JSON");
     command->callback([&] { result = explain(options, json); });
 
-    command = app.add_subcommand("bench", "Measures how fast frames are (options of Google Benchmark follow)");
+    command = app.add_subcommand("bench",
+                                 "Measures how fast frames are: of test scenes (with options of Google Benchmark), or, "
+                                 "with --stage, of stages");
+    BenchOptions benchOptions;
+    addBenchOptions(*command, benchOptions);
     command->allow_extras();
-    command->callback([&, command] { result = bench(command->remaining()); });
+    command->callback([&, command] {
+        std::vector<std::string> others = command->remaining();
+        if (!benchOptions.stages.empty()) {
+            result = others.empty()
+                         ? benchStages(benchOptions)
+                         : fail("bench --stage: unknown option " + others[0] + "; see `relief bench --help`");
+            return;
+        }
+        for (const CLI::Option* option : command->get_options()) {
+            if (option->count() > 0) result = fail(option->get_name() + ": bench takes it with --stage only");
+        }
+        if (result) result = bench(others);
+    });
+
+    command = app.add_subcommand("report", "Measures what a chapter claims, and writes it down: text, table and plot");
+    ReportOptions reportOptions;
+    command->add_option("name", reportOptions.name, "triplanar: what each way to map normals costs, beside its error")
+        ->required();
+    command->add_option("--output", reportOptions.output, "The folder")->capture_default_str()->type_name("DIR");
+    command->add_option("--size", reportOptions.size, "Picture size in pixels")
+        ->type_name("WxH")
+        ->capture_default_str();
+    command->add_option("--rounds", reportOptions.rounds, "How often each stage has its turn")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command
+        ->add_option("--counted-program", reportOptions.countedProgram,
+                     "The relief that instructions are counted in; ./relief builds one")
+        ->type_name("FILE");
+    command->callback([&] { result = report(reportOptions); });
 
     try {
         app.parse(argc, argv);

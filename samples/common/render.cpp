@@ -79,6 +79,7 @@ Expected<PreparedStage> PreparedStage::prepare(const Stage& stage, const std::ve
 const Camera& PreparedStage::camera() const
 {
     static const Camera facing = {.position = {0.0f, 0.4f, -1.7f}};
+    if (usersCamera) return *usersCamera;
     return inputs->usersMesh.has_value() ? facing : stage->camera;
 }
 

@@ -26,12 +26,13 @@ public:
     void record(Frame& frame, int width, int height) const { record(frame, width, height, camera()); }
     void record(Frame& frame, int width, int height, const Camera& camera) const;
 
-    // The stage's, or one that looks at a mesh of the user's from the front.
+    // The user's, or the stage's, or one that looks at a mesh of the user's from the front.
     const Camera& camera() const;
 
     const Stage* stage = nullptr;
     std::vector<Property> properties;
     std::unique_ptr<LoadedInputs> inputs;
+    std::optional<Camera> usersCamera;
     std::optional<TangentSpaceVisualizer> tangentLines;  // over the picture, for every mesh that was drawn
     std::unique_ptr<SceneLog> log;                       // of the last record()
 };

@@ -1,0 +1,82 @@
+// bench --stage: what drawing a stage costs, and whether another one costs more.
+#include <cstdio>
+
+#include "cost.h"
+
+namespace relief::samples {
+
+namespace {
+
+// Draws and measures nothing: what an instruction counter is to see.
+Expected<void> drawFrames(const PreparedStage& stage, Size size, const BenchOptions& options)
+{
+    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, ColorFormat::rgba8Srgb);
+    if (!target) return tl::unexpected(target.error());
+    Frame frame(*target, {.threads = options.render.threads});
+    stage.record(frame, size.width, size.height);
+    Statistics statistics;
+    for (int i = 0; i < options.frames; ++i) statistics = frame.run();
+    std::printf("%llu\n", static_cast<unsigned long long>(statistics.pixelsShaded));
+    return {};
+}
+
+std::string text(const Quartiles& q)
+{
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, "%.3f (%.3f ... %.3f)", q.median, q.lower, q.upper);
+    return buffer;
+}
+
+}  // namespace
+
+Expected<void> benchStages(const BenchOptions& options)
+{
+    const Expected<Size> size = parseSize(options.render.size);
+    if (!size) return tl::unexpected(size.error());
+    std::vector<PreparedStage> stages;
+    std::vector<RenderOptions> each;
+    for (const std::string& name : options.stages) {
+        each.push_back(options.render);
+        each.back().stage = name;
+        Expected<PreparedStage> stage = prepare(each.back());
+        if (!stage) return tl::unexpected(stage.error());
+        stages.push_back(std::move(*stage));
+    }
+    if (options.frames > 0) {
+        for (const PreparedStage& stage : stages) {
+            const Expected<void> drawn = drawFrames(stage, *size, options);
+            if (!drawn) return drawn;
+        }
+        return {};
+    }
+
+    std::vector<std::string> instructions(stages.size());
+    for (std::size_t i = 0; i < stages.size() && options.instructions; ++i) {
+        if (options.countedProgram.empty()) {
+            return fail("bench --instructions: no program to count in; run it as ./relief bench, or add " +
+                        std::string("--counted-program FILE with a relief built by `cmake --preset counted`"));
+        }
+        const Expected<double> counted = instructionsPerFragment(options.countedProgram, each[i]);
+        if (!counted) return tl::unexpected(counted.error());
+        instructions[i] = text("%.1f", *counted);
+    }
+    const Expected<std::vector<Cost>> costs = measure(stages, *size, options.render.threads, options.rounds);
+    if (!costs) return tl::unexpected(costs.error());
+
+    std::printf("%dx%d, threads: %d, lanes: %d, rounds: %d; fetches count helper lanes\n", size->width, size->height,
+                Workers(options.render.threads).count(), kLanes, options.rounds);
+    std::printf("%-34s %9s %16s %9s %11s  %s%s\n", "stage", "pixels", "fetches/fragment", "ms/frame", "ns/fragment",
+                options.instructions ? "instructions/fragment  " : "",
+                ("ratio to " + stages[0].stage->id + " (quartiles)").c_str());
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        const Cost& cost = (*costs)[i];
+        std::printf("%-34s %9llu %16.2f %9.3f %11.2f  ", (stages[i].stage->id + " " + stages[i].stage->title).c_str(),
+                    static_cast<unsigned long long>(cost.statistics.pixelsShaded), cost.fetchesPerFragment(),
+                    quartiles(cost.seconds).median * 1e3, cost.nanosecondsPerFragment());
+        if (options.instructions) std::printf("%21s  ", instructions[i].c_str());
+        std::printf("%s\n", text(ratio(cost, (*costs)[0])).c_str());
+    }
+    return {};
+}
+
+}  // namespace relief::samples

@@ -1,0 +1,112 @@
+#include "report.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "cost.h"
+#include "file.h"
+
+namespace relief::samples {
+
+namespace {
+
+struct Report
+{
+    const char* name;
+    Expected<void> (*write)(const ReportOptions&);
+};
+
+constexpr Report kReports[] = {{"triplanar", reportTriplanar}};
+
+std::string processor()
+{
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("model name") && line.find(": ") != std::string::npos)
+            return line.substr(line.find(": ") + 2);
+    }
+    return "unknown processor";
+}
+
+std::string compiler()
+{
+#ifdef __clang__
+    return "clang++ " __clang_version__;
+#else
+    return "g++ " __VERSION__;
+#endif
+}
+
+// Of the sources that lie where they were built.
+std::string commit()
+{
+    const std::string git = "git -C " + quoted(RELIEF_SOURCE_FOLDER) + " ";
+    std::string hash = outputOf(git + "rev-parse --short=12 HEAD").value_or("unknown");
+    if (!hash.empty() && hash.back() == '\n') hash.pop_back();
+    const std::optional<std::string> changes = outputOf(git + "status --porcelain --untracked-files=no");
+    return changes && !changes->empty() ? hash + " and changes that are not committed" : hash;
+}
+
+}  // namespace
+
+std::string reportHead(const std::string& title, const ReportOptions& options)
+{
+    const ReportOptions usual;
+    std::string command = "./relief report " + options.name;
+    if (options.size != usual.size) command += " --size " + options.size;
+    if (options.rounds != usual.rounds) command += " --rounds " + std::to_string(options.rounds);
+    return "# " + title + "\n\n    " + command + "\n\n- processor: " + processor() +
+           "\n- lanes: " + std::to_string(kLanes) + "\n- compiler: " + compiler() + "\n- commit: " + commit() + "\n";
+}
+
+Expected<void> writeReport(const ReportOptions& options, const std::string& file, const std::string& text)
+{
+    std::error_code error;
+    std::filesystem::create_directories(options.output, error);
+    if (error) {
+        return fail(options.output + ": cannot make the folder (" + error.message() +
+                    "); choose another with --output");
+    }
+    return writeFileAtomically(std::filesystem::path(options.output) / file,
+                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+Expected<void> checkPlotting()
+{
+    if (outputOf("gnuplot --version")) return {};
+    return fail("the plot cannot be drawn: gnuplot does not run; install gnuplot-nox");
+}
+
+Expected<void> plotReport(const ReportOptions& options, const std::string& settings)
+{
+    const std::string script = RELIEF_SOURCE_FOLDER "/docs/report/" + options.name + ".gnuplot";
+    const std::string command =
+        "cd " + quoted(options.output) + " && gnuplot -e " + quoted(settings) + " " + quoted(script);
+    const std::optional<std::string> svg = outputOf(command + " 2>/dev/null");
+    if (!svg || !svg->starts_with("<?xml")) {
+        return fail(options.name + ".svg was not drawn; run this to see why: " + command);
+    }
+    return writeReport(options, options.name + ".svg", *svg);
+}
+
+void showProgress(const std::string& line)
+{
+    if (isatty(STDOUT_FILENO) == 0) return;
+    std::printf("\r\033[K%s", line.c_str());
+    std::fflush(stdout);
+}
+
+Expected<void> report(const ReportOptions& options)
+{
+    std::string names;
+    for (const Report& r : kReports) {
+        if (options.name == r.name) return r.write(options);
+        names += (names.empty() ? "" : ", ") + std::string(r.name);
+    }
+    return fail("report " + options.name + ": there is no such report; there is " + names);
+}
+
+}  // namespace relief::samples
