@@ -47,7 +47,7 @@ const std::vector<Subject> kMethods = {
 };
 
 const char* const kWeights[] = {"linear",  "0.2 off",    "0.2 off times 7", "power 4",           "power 8",
-                                "power n", "asymmetric", "height",          "0.58 off unguarded"};
+                                "power n", "asymmetric", "height",          "0.65 off unguarded"};
 
 std::vector<Subject> weights(bool alone)
 {
@@ -292,10 +292,10 @@ Expected<std::string> factorFinding(const Table& textured, const Table& alone, c
     const Expected<Difference> d =
         difference(row(textured, "0.2 off").subject, row(textured, "0.2 off times 7").subject, options);
     if (!d) return tl::unexpected(d.error());
-    const Measured &with = row(alone, "0.2 off times 7"), &without = row(alone, "0.58 off unguarded");
+    const Measured &with = row(alone, "0.2 off times 7"), &without = row(alone, "0.65 off unguarded");
     return "| 2: the factor 7 is of no use: with it and without, no pixel differs by more than 1 code of 255 (" +
            std::to_string(d->pixels) + " differ, by at most " + std::to_string(d->largest) +
-           "); weights alone, with it : without (0.58 in place of 0.2) | " + verdict(d->largest <= 1) + " | " +
+           "); weights alone, with it : without (0.65 in place of 0.2) | " + verdict(d->largest <= 1) + " | " +
            text("%.2f", with.cost.nanosecondsPerFragment()) + " : " +
            text("%.2f", without.cost.nanosecondsPerFragment()) + " | " + ratioText(with, without) + " | " +
            instructionsOf(with) + " : " + instructionsOf(without) + " |\n";
