@@ -16,7 +16,6 @@ using namespace triplanar;
 // A method of its own: the mesh's tangents. It alone needs them.
 struct MeshTangents
 {
-    static constexpr const char* kName = "mesh tangents";
 };
 
 template <bool TANGENTS>
