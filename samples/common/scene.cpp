@@ -252,18 +252,27 @@ void Scene::cutCell(int column, int columns, int row, int rows) const
     cut({(left + right - width) / 2, (top + bottom - height) / 2, width, height}, {left, top, right, bottom});
 }
 
-std::vector<Property> litProperties(std::vector<Property> more)
+std::vector<Property> joined(std::vector<Property> first, const std::vector<Property>& more)
 {
-    std::vector<Property> all = {
+    first.insert(first.end(), more.begin(), more.end());
+    return first;
+}
+
+std::vector<Property> lightAngles(float pitch, float yaw)
+{
+    return {{"lightPitch", glm::vec4(pitch), -180.0f, 180.0f, 1, "the light's rotation about X, degrees"},
+            {"lightYaw", glm::vec4(yaw), -180.0f, 180.0f, 1, "the light's rotation about Y, degrees"}};
+}
+
+std::vector<Property> litProperties(const std::vector<Property>& more)
+{
+    const std::vector<Property> material = {
         {"tint", glm::vec4(1.0f), 0.0f, 1.0f, 4, "colour that the albedo is multiplied by"},
         {"mainTex_ST", {1, 1, 0, 0}, -16.0f, 16.0f, 4, "tiling in x and y, offset in z and w"},
         {"metallic", glm::vec4(0.0f), 0.0f, 1.0f, 1, "0 dielectric, 1 metal"},
         {"smoothness", glm::vec4(0.1f), 0.0f, 1.0f, 1, "0 matte, 1 polished"},
-        {"lightPitch", glm::vec4(35.0f), -180.0f, 180.0f, 1, "the light's rotation about X, degrees"},
-        {"lightYaw", glm::vec4(-20.0f), -180.0f, 180.0f, 1, "the light's rotation about Y, degrees"},
     };
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+    return joined(joined(material, lightAngles(35.0f, -20.0f)), more);
 }
 
 Property bumpScaleProperty()
@@ -314,10 +323,9 @@ Inputs bare(const std::string& mesh)
 
 std::vector<Property> detailedProperties(const std::vector<Property>& more)
 {
-    std::vector<Property> all = litProperties(
-        {mapScaleProperty("bumpScale", 0.5f), detailTilingProperty(), mapScaleProperty("detailBumpScale", 0.5f)});
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+    return joined(litProperties({mapScaleProperty("bumpScale", 0.5f), detailTilingProperty(),
+                                 mapScaleProperty("detailBumpScale", 0.5f)}),
+                  more);
 }
 
 }  // namespace relief::samples

@@ -193,8 +193,12 @@ bool Scene::reaches(const std::string& name, const Light& source, const Object& 
     return reached;
 }
 
+// One list after the other; and the light's two angles.
+std::vector<Property> joined(std::vector<Property> first, const std::vector<Property>& more);
+std::vector<Property> lightAngles(float pitch, float yaw);
+
 // The properties of Rendering 5's material, on which all of "Bumpiness" builds, and the light's two angles.
-std::vector<Property> litProperties(std::vector<Property> more = {});
+std::vector<Property> litProperties(const std::vector<Property>& more = {});
 
 // The height of the bumps: how many texels high the whole range of the height map is. Resolution changes the look
 // unless this grows with it, which is what the tutorial's "replace delta by 1" hides.

@@ -4,15 +4,12 @@ namespace relief::samples {
 
 std::vector<Property> triplanarProperties(const std::vector<Property>& more, float lightYaw)
 {
-    std::vector<Property> all = {
+    const std::vector<Property> surface = {
         {"tiling", glm::vec4(1.0f), 0.0f, 64.0f, 1, "how often the texture repeats per unit of the world"},
         mapScaleProperty("bumpScale", 1.0f),
         {"ambient", glm::vec4(0.05f), 0.0f, 1.0f, 3, "light from everywhere"},
-        {"lightPitch", glm::vec4(35.0f), -180.0f, 180.0f, 1, "the light's rotation about X, degrees"},
-        {"lightYaw", glm::vec4(lightYaw), -180.0f, 180.0f, 1, "the light's rotation about Y, degrees"},
     };
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+    return joined(joined(surface, lightAngles(35.0f, lightYaw)), more);
 }
 
 Inputs bricks(const std::string& mesh)
