@@ -21,6 +21,20 @@ const char* const kFragmentHead = R"glsl(#version 450 core
 layout(location = 0) out vec4 result;
 )glsl";
 
+const char* const kMesasLevel = R"glsl(
+vec4 tex2D(sampler2D s, vec2 uv) { return texture(s, uv); }
+)glsl";
+
+// Without anisotropy (see texture/level_of_detail.h).
+const char* const kExactLevel = R"glsl(
+vec4 tex2D(sampler2D s, vec2 uv)
+{
+    vec2 size = vec2(textureSize(s, 0));
+    vec2 dX = dFdxFine(uv) * size, dY = dFdyFine(uv) * size;
+    return textureLod(s, uv, 0.5 * log2(max(dot(dX, dX), dot(dY, dY))));
+}
+)glsl";
+
 std::string text(GLenum name)
 {
     const GLubyte* const found = glGetString(name);
@@ -72,6 +86,7 @@ struct Mesa::Context
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
     int width = 0, height = 0;
+    LevelOfDetail levelOfDetail = LevelOfDetail::mesas;
 
     Context() = default;
     Context(const Context&) = delete;
@@ -97,7 +112,7 @@ struct Mesa::Context
     }
 };
 
-Expected<Mesa> Mesa::create(int width, int height)
+Expected<Mesa> Mesa::create(int width, int height, LevelOfDetail levelOfDetail)
 {
     const auto context = std::make_shared<Context>();
     if (!context->open()) {
@@ -109,6 +124,7 @@ Expected<Mesa> Mesa::create(int width, int height)
     }
     context->width = width;
     context->height = height;
+    context->levelOfDetail = levelOfDetail;
 
     GLuint target = 0, buffers[2] = {0, 0};
     glCreateFramebuffers(1, &target);
@@ -163,7 +179,8 @@ Expected<MesaProgram> Mesa::makeProgram(const std::string& vertexProgram, const 
 {
     const Expected<unsigned> vertex = compile(GL_VERTEX_SHADER, kVertexHead + vertexProgram);
     if (!vertex) return tl::unexpected(vertex.error());
-    const Expected<unsigned> fragment = compile(GL_FRAGMENT_SHADER, kFragmentHead + fragmentProgram);
+    const std::string tex2D = context->levelOfDetail == LevelOfDetail::exact ? kExactLevel : kMesasLevel;
+    const Expected<unsigned> fragment = compile(GL_FRAGMENT_SHADER, kFragmentHead + tex2D + fragmentProgram);
     if (!fragment) return tl::unexpected(fragment.error());
     const GLuint program = glCreateProgram();
     glAttachShader(program, *vertex);
@@ -186,7 +203,7 @@ MesaMesh Mesa::makeMesh(const Mesh& mesh)
     return {vertexArray, static_cast<int>(mesh.indices.size())};
 }
 
-MesaTexture Mesa::makeTexture(const Texture& texture, int maxAnisotropy)
+MesaTexture Mesa::makeTexture(const Texture& texture)
 {
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);
@@ -201,7 +218,6 @@ MesaTexture Mesa::makeTexture(const Texture& texture, int maxAnisotropy)
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_REPEAT);
     glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_REPEAT);
-    glTextureParameterf(name, GL_TEXTURE_MAX_ANISOTROPY, static_cast<float>(maxAnisotropy));
     return {name};
 }
 

@@ -47,21 +47,29 @@ enum class MesaCull
     back
 };
 
+// How tex2D in fragment programs finds the level of detail. Mesa's own takes a straight line between powers of two for
+// the logarithm, and is off by up to 0.043 levels; `exact` spells the formula out.
+enum class LevelOfDetail
+{
+    mesas,
+    exact
+};
+
 class Mesa
 {
 public:
     // Current on the calling thread as long as it lives; one at a time. Mesa reads its environment variables here.
-    static Expected<Mesa> create(int width, int height);
+    static Expected<Mesa> create(int width, int height, LevelOfDetail levelOfDetail);
 
     // What Mesa calls itself: renderer and version.
     std::string description() const;
 
     // From GLSL without #version. Vertex programs find `position` at location 0, `normal` at 1 and `uv` at 2, and give
-    // flipped(clip position) to gl_Position.
+    // flipped(clip position) to gl_Position. Fragment programs have tex2D(sampler, uv), and give `result`.
     Expected<MesaProgram> makeProgram(const std::string& vertexProgram, const std::string& fragmentProgram);
     MesaMesh makeMesh(const Mesh& mesh);
     // The texture's own levels, repeated, with the trilinear filter. RGBA8 only.
-    MesaTexture makeTexture(const Texture& texture, int maxAnisotropy);
+    MesaTexture makeTexture(const Texture& texture);
 
     // Depth to 1. The depth test is `less`, and writes.
     void clear(const glm::vec4& color);

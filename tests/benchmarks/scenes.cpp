@@ -61,6 +61,7 @@ struct ConstantFragmentProgram
     float4 operator()(FlatInterpolators) const { return color; }
 };
 
+// uv (0, 0) lies below the camera: floats are finest where texels are largest on screen.
 struct PlaneVertexProgram
 {
     ObjectTransform object;
@@ -68,7 +69,7 @@ struct PlaneVertexProgram
 
     UvInterpolators operator()(PositionUv v) const
     {
-        return {UnityObjectToClipPos(object, v.position), float2(v.uv * tiling)};
+        return {UnityObjectToClipPos(object, v.position), float2((v.uv - 0.5f) * tiling)};
     }
 };
 
