@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "agreement.h"
 #include "commands.h"
 #include "cost.h"
 #include "twins.h"
@@ -20,6 +21,7 @@ namespace relief::samples {
 
 namespace {
 
+using benchmarks::Agreement;
 using benchmarks::BenchScene;
 using benchmarks::LevelOfDetail;
 using benchmarks::Mesa;
@@ -112,24 +114,13 @@ Times measure(Pair& pair, int pairs)
 
 // --- pictures ---
 
-// How far two pictures agree, as the columns of the table.
-std::string agreement(std::span<const std::uint32_t> ours, std::span<const std::uint32_t> theirs)
+// The columns of the table.
+std::string text(const Agreement& agreement)
 {
-    std::size_t uncovered = 0, close = 0;
-    int largest = 0;
-    for (std::size_t i = 0; i < ours.size(); ++i) {
-        uncovered += (ours[i] >> 24 == 0) != (theirs[i] >> 24 == 0);
-        int difference = 0;
-        for (int shift = 0; shift < 24; shift += 8) {
-            const int a = static_cast<int>(ours[i] >> shift & 255), b = static_cast<int>(theirs[i] >> shift & 255);
-            difference = std::max(difference, std::abs(a - b));
-        }
-        close += difference <= 1;
-        largest = std::max(largest, difference);
-    }
     char columns[128];
-    std::snprintf(columns, sizeof columns, "%16zu %13.4f%% %8d", uncovered,
-                  100.0 * static_cast<double>(close) / static_cast<double>(ours.size()), largest);
+    std::snprintf(
+        columns, sizeof columns, "%16zu %15zu %13.4f%% %8d", agreement.coverageDiffers, agreement.awayFromEdges,
+        100.0 * static_cast<double>(agreement.close) / static_cast<double>(agreement.pixels), agreement.largest);
     return columns;
 }
 
@@ -144,7 +135,9 @@ Expected<std::string> comparePictures(const Setting& setting)
         if (!pair) return tl::unexpected(pair.error());
         const auto theirs = mesa->pixels();
         if (!theirs) return tl::unexpected(theirs.error());
-        lines += agreement((*pair)->target.color8(), *theirs) + "\n";
+        lines += text(benchmarks::agreement(*(*pair)->data, setting.size.width, setting.size.height,
+                                            (*pair)->target.color8(), *theirs)) +
+                 "\n";
     }
     return lines;
 }
@@ -232,8 +225,8 @@ Expected<void> benchPeer(const PeerOptions& options)
     if (!mesa) return tl::unexpected(mesa.error());
     std::printf("%dx%d, threads: %d, lanes: %d, pairs: %d; ms of the fastest of %d frames, medians of the pairs\n",
                 setting->size.width, setting->size.height, setting->threads, kLanes, setting->pairs, kFramesPerTurn);
-    std::printf("%-18s %9s %9s  %-27s %16s %14s %8s\n", "scene", "Relief", "Mesa", "Mesa / Relief (quartiles)",
-                "coverage differs", "within 1/255", "largest");
+    std::printf("%-18s %9s %9s  %-27s %16s %15s %14s %8s\n", "scene", "Relief", "Mesa", "Mesa / Relief (quartiles)",
+                "coverage differs", "away from edges", "within 1/255", "largest");
     double logarithms = 0.0;
     std::size_t line = 0;
     for (const Twin& twin : setting->twins) {

@@ -124,6 +124,7 @@ std::unique_ptr<SceneData> layers(Frame& frame, int count)
 {
     auto data = std::make_unique<SceneData>();
     data->mesh = makeQuad();
+    data->worldFromObject = samples::scaling({2, 2, 1});  // as ScreenVertexProgram does
     for (int i = 0; i < count; ++i) {
         const float part = static_cast<float>(i + 1) / static_cast<float>(count + 1);
         data->layers.push_back({1.0f - part, {part, 0.5f, 0.25f, 1.0f}});
