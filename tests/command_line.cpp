@@ -419,6 +419,55 @@ TEST_CASE("command line: bench --stage measures stages in turn, or draws and say
     checkRefused(folder.path, "bench --size 96x54", {"--size", "--stage"});
 }
 
+TEST_CASE("command line: bench --peer draws the test scenes beside Mesa, or says what is missing")
+{
+    const TemporaryFolder folder;
+    checkRefused(folder.path, "bench --peer nobody", {"--peer", "nobody", "mesa"});
+    checkRefused(folder.path, "bench --peer mesa --stage 1.06", {"--peer", "--stage"});
+    checkRefused(folder.path, "bench --peer mesa --rounds 2", {"--rounds"});
+    checkRefused(folder.path, "bench --peer mesa --pairs 0", {"--pairs"});
+    checkRefused(folder.path, "bench --peer mesa --benchmark_filter=x", {"benchmark_filter"});
+    checkRefused(folder.path, "bench --pairs 3", {"--pairs", "--peer"});
+    checkRefused(folder.path, "bench --scene clear", {"--scene", "--peer"});
+
+    std::vector<std::string> scenes = {"clear",     "flat_quad",       "trilinear_plane",  "anisotropic_plane",
+                                       "layers_32", "small_triangles", "million_triangles"};
+#if defined(RELIEF_SHORT_TESTS)
+    scenes.pop_back();
+#endif
+    std::string arguments = "bench --peer mesa --size 64x36 --pairs 1";
+    for (const std::string& scene : scenes) arguments += " --scene " + scene;
+    const Outcome table = run(folder.path, arguments);
+    if (table.code == 2 && table.err.find("libgl1-mesa-dri") != std::string::npos) {
+        checkRefused(folder.path, "bench --peer mesa --size 64x36", {"libgl1-mesa-dri"});
+        MESSAGE("not compared with Mesa: " << table.err);
+        return;
+    }
+    CAPTURE(table.err);
+    CHECK(table.code == 0);
+    std::stringstream lines(table.out);
+    std::string line;
+    CHECK((std::getline(lines, line) && line.find("64x36") != std::string::npos));
+    CHECK((std::getline(lines, line) && line.find("Mesa / Relief") != std::string::npos));
+    for (const std::string& scene : scenes) {
+        REQUIRE(std::getline(lines, line));
+        CHECK(line.starts_with(scene));
+        if (scene == "clear" || scene == "flat_quad" || scene == "layers_32")
+            CHECK(line.ends_with("100.0000%        0"));
+    }
+    CHECK((std::getline(lines, line) && line.find("llvmpipe") != std::string::npos));
+    CHECK_FALSE(std::getline(lines, line));
+
+    const Outcome one = run(folder.path, "bench --peer mesa --size 64x36 --pairs 1 --scene clear --threads 1");
+    CHECK(one.code == 0);
+    CHECK(one.out.find("threads: 1,") != std::string::npos);
+    CHECK(one.out.find("flat_quad") == std::string::npos);
+    checkRefused(folder.path, "bench --peer mesa --scene nowhere", {"nowhere", "flat_quad"});
+    checkRefused(folder.path, "bench --peer mesa --threads 17", {"--threads", "16"});
+    checkRefused(folder.path, "bench --peer mesa --size big", {"big"});
+    checkRefused(folder.path, "bench --peer mesa --size 64x36", {"libgl1-mesa-dri"}, "LIBGL_DRIVERS_PATH=/nowhere");
+}
+
 TEST_CASE("command line: bench --instructions divides what valgrind counts in one frame by the pixels")
 {
     const TemporaryFolder folder;

@@ -38,6 +38,15 @@ struct BenchOptions
     std::string countedProgram;
 };
 
+// What `bench --peer` measures, and beside whom.
+struct PeerOptions
+{
+    std::string peer;
+    std::vector<std::string> scenes;  // by name; none: all
+    std::string size = "1920x1080";
+    int threads = 0, pairs = 9;
+};
+
 // "WIDTHxHEIGHT", 1 to 16384 each.
 Expected<Size> parseSize(const std::string& text);
 
@@ -58,6 +67,7 @@ Expected<void> gallery(const std::string& folder, int threads);
 Expected<void> view(const RenderOptions& options, int frames);
 Expected<void> bench(const std::vector<std::string>& arguments);
 Expected<void> benchStages(const BenchOptions& options);
+Expected<void> benchPeer(const PeerOptions& options);
 Expected<void> report(const ReportOptions& options);
 
 // The stage that the options name, with their settings and files.

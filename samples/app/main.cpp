@@ -1,4 +1,5 @@
 // relief: the command line of the samples.
+#include <algorithm>
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
@@ -49,8 +50,8 @@ void addInputOptions(CLI::App& command, RenderOptions& options)
     addPictureOptions(command, options);
 }
 
-// All but --stage are of no use without it.
-void addBenchOptions(CLI::App& command, BenchOptions& options)
+// All but --stage are of no use without it; --peer takes size and threads too.
+void addBenchOptions(CLI::App& command, BenchOptions& options, PeerOptions& peerOptions)
 {
     addPictureOptions(command, options.render);
     command.add_option("--rounds", options.rounds, "How often each stage has its turn")
@@ -68,11 +69,56 @@ void addBenchOptions(CLI::App& command, BenchOptions& options)
     for (CLI::Option* const option : command.get_options()) {
         if (option != command.get_help_ptr()) option->group("With --stage");
     }
-    command
-        .add_option("--stage", options.stages,
-                    "Measures stages, by number or name, on one thread unless told otherwise; may be repeated: they "
-                    "take turns, and each is compared with the first")
-        ->allow_extra_args(false);
+    CLI::Option* const stage =
+        command
+            .add_option("--stage", options.stages,
+                        "Measures stages, by number or name, on one thread unless told otherwise; may be repeated: "
+                        "they take turns, and each is compared with the first")
+            ->allow_extra_args(false);
+    CLI::Option* const peer =
+        command
+            .add_option("--peer", peerOptions.peer,
+                        "Draws the test scenes in turn with another rasterizer, mesa (its llvmpipe), and says how much "
+                        "faster Relief is; takes --size (1920x1080 unless told otherwise) and --threads (all)")
+            ->check(CLI::IsMember({"mesa"}))
+            ->excludes(stage);
+    command.add_option("--scene", peerOptions.scenes, "With --peer: one of the test scenes alone; may be repeated")
+        ->allow_extra_args(false)
+        ->needs(peer);
+    command.add_option("--pairs", peerOptions.pairs, "With --peer: how often each of the two has its turn")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str()
+        ->needs(peer);
+}
+
+// The first option given that is none of `known`; empty if there is none.
+std::string otherOption(const CLI::App& command, const std::vector<std::string>& known)
+{
+    for (const CLI::Option* const option : command.get_options()) {
+        if (option->count() > 0 && std::find(known.begin(), known.end(), option->get_name()) == known.end()) {
+            return option->get_name();
+        }
+    }
+    return "";
+}
+
+Expected<void> benchWith(const CLI::App& command, const BenchOptions& options, PeerOptions peerOptions)
+{
+    const std::vector<std::string> others = command.remaining();
+    const auto unknown = [&](const std::string& what) {
+        return fail(what + ": unknown option " + others[0] + "; see `relief bench --help`");
+    };
+    if (!peerOptions.peer.empty()) {
+        const std::string other = otherOption(command, {"--peer", "--scene", "--pairs", "--size", "--threads"});
+        if (!others.empty()) return unknown("bench --peer");
+        if (!other.empty()) return fail(other + ": bench --peer does not take it; see `relief bench --help`");
+        if (command.count("--size") > 0) peerOptions.size = options.render.size;
+        if (command.count("--threads") > 0) peerOptions.threads = options.render.threads;
+        return benchPeer(peerOptions);
+    }
+    if (!options.stages.empty()) return others.empty() ? benchStages(options) : unknown("bench --stage");
+    const std::string other = otherOption(command, {});
+    return other.empty() ? bench(others) : fail(other + ": bench takes it with --stage only");
 }
 
 }  // namespace
@@ -126,24 +172,13 @@ int main(int argc, char** argv)
     command->callback([&] { result = explain(options, json); });
 
     command = app.add_subcommand("bench",
-                                 "Measures how fast frames are: of test scenes (with options of Google Benchmark), or, "
-                                 "with --stage, of stages");
+                                 "Measures how fast frames are: of test scenes (with options of Google Benchmark), of "
+                                 "stages with --stage, or beside another rasterizer with --peer");
     BenchOptions benchOptions;
-    addBenchOptions(*command, benchOptions);
+    PeerOptions peerOptions;
+    addBenchOptions(*command, benchOptions, peerOptions);
     command->allow_extras();
-    command->callback([&, command] {
-        std::vector<std::string> others = command->remaining();
-        if (!benchOptions.stages.empty()) {
-            result = others.empty()
-                         ? benchStages(benchOptions)
-                         : fail("bench --stage: unknown option " + others[0] + "; see `relief bench --help`");
-            return;
-        }
-        for (const CLI::Option* option : command->get_options()) {
-            if (option->count() > 0) result = fail(option->get_name() + ": bench takes it with --stage only");
-        }
-        if (result) result = bench(others);
-    });
+    command->callback([&, command] { result = benchWith(*command, benchOptions, peerOptions); });
 
     command = app.add_subcommand("report", "Measures what a chapter claims, and writes it down: text, table and plot");
     ReportOptions reportOptions;

@@ -61,6 +61,7 @@ struct ConstantFragmentProgram
     float4 operator()(FlatInterpolators) const { return color; }
 };
 
+// uv (0, 0) lies below the camera: floats are finest where texels are largest on screen.
 struct PlaneVertexProgram
 {
     ObjectTransform object;
@@ -68,7 +69,7 @@ struct PlaneVertexProgram
 
     UvInterpolators operator()(PositionUv v) const
     {
-        return {UnityObjectToClipPos(object, v.position), float2(v.uv * tiling)};
+        return {UnityObjectToClipPos(object, v.position), float2((v.uv - 0.5f) * tiling)};
     }
 };
 
@@ -99,25 +100,38 @@ struct LambertFragmentProgram
     }
 };
 
-struct MeshData final : SceneData
+// The triangle's place and colour are the mesh's.
+struct SmallVertexProgram
 {
-    Mesh mesh;
-    std::optional<Texture> texture;
+    UvInterpolators operator()(PositionUv v) const { return {v.position, v.uv}; }
+};
+
+struct UvFragmentProgram
+{
+    float4 operator()(UvInterpolators i) const
+    {
+        const float2 color = i.uv;
+        return float4(color.x, color.y, 0.5f, 1);
+    }
 };
 
 std::unique_ptr<SceneData> clearOnly(Frame&, int, int)
 {
-    return std::make_unique<MeshData>();
+    return std::make_unique<SceneData>();
 }
 
 std::unique_ptr<SceneData> layers(Frame& frame, int count)
 {
-    auto data = std::make_unique<MeshData>();
+    auto data = std::make_unique<SceneData>();
     data->mesh = makeQuad();
+    data->worldFromObject = samples::scaling({2, 2, 1});  // as ScreenVertexProgram does
     for (int i = 0; i < count; ++i) {
         const float part = static_cast<float>(i + 1) / static_cast<float>(count + 1);
-        frame.draw<RenderState{.cull = Cull::none}>(data->mesh, ScreenVertexProgram{1.0f - part},
-                                                    ConstantFragmentProgram{float4(part, 0.5f, 0.25f, 1)});
+        data->layers.push_back({1.0f - part, {part, 0.5f, 0.25f, 1.0f}});
+    }
+    for (const Layer& layer : data->layers) {
+        frame.draw<RenderState{.cull = Cull::none}>(data->mesh, ScreenVertexProgram{layer.depth},
+                                                    ConstantFragmentProgram{broadcast(layer.color)});
     }
     return data;
 }
@@ -142,26 +156,59 @@ glm::mat4 clipFromWorld(const samples::Camera& camera, int width, int height)
            samples::viewFromWorld(camera);
 }
 
-std::unique_ptr<SceneData> trilinearPlane(Frame& frame, int width, int height)
+std::unique_ptr<SceneData> plane(Frame& frame, int width, int height, int maxAnisotropy)
 {
-    auto data = std::make_unique<MeshData>();
+    auto data = std::make_unique<SceneData>();
     data->mesh = makeQuad();
     data->texture.emplace(testTexture());
+    data->maxAnisotropy = maxAnisotropy;
+    data->tiling = 400.0f;
     const samples::Camera camera = {.position = {0, 1, 0}, .target = {0, 1, 1}, .fieldOfView = 60, .farPlane = 1000};
-    const glm::mat4 world = samples::rotationX(90) * samples::scaling(glm::vec3(800));
-    frame.draw(data->mesh, PlaneVertexProgram{{clipFromWorld(camera, width, height), world}, 400.0f},
-               TextureFragmentProgram{{.texture = &*data->texture}});
+    data->clipFromWorld = clipFromWorld(camera, width, height);
+    data->worldFromObject = samples::rotationX(90) * samples::scaling(glm::vec3(800));
+    frame.draw(data->mesh, PlaneVertexProgram{{data->clipFromWorld, data->worldFromObject}, data->tiling},
+               TextureFragmentProgram{{.texture = &*data->texture, .maxAnisotropy = maxAnisotropy}});
     return data;
 }
 
 std::unique_ptr<SceneData> millionTriangles(Frame& frame, int width, int height)
 {
-    auto data = std::make_unique<MeshData>();
+    auto data = std::make_unique<SceneData>();
     data->mesh = makeTerrain(1000, 500);
     const samples::Camera camera = {.position = {0, 0.75f, -0.6f}, .target = {0, 0, -0.02f}, .fieldOfView = 50};
-    const glm::mat4 world = samples::scaling({1.6f, 1, 1});
-    frame.draw(data->mesh, TerrainVertexProgram{{clipFromWorld(camera, width, height), world}},
-               LambertFragmentProgram{normalize(float3(0.4f, 0.8f, -0.4f)), float3(0.8f, 0.7f, 0.5f)});
+    data->clipFromWorld = clipFromWorld(camera, width, height);
+    data->worldFromObject = samples::scaling({1.6f, 1, 1});
+    data->lightDir = {0.40824829f, 0.81649658f, -0.40824829f};
+    data->color = {0.8f, 0.7f, 0.5f};
+    frame.draw(data->mesh, TerrainVertexProgram{{data->clipFromWorld, data->worldFromObject}},
+               LambertFragmentProgram{broadcast(data->lightDir), broadcast(data->color)});
+    return data;
+}
+
+// Each triangle has corners in a square of 20 pixels, so that its sides are some 10 pixels long; it has one depth, and
+// one colour as its uv. The mesh is in clip space.
+std::unique_ptr<SceneData> smallTriangles(Frame& frame, int width, int height)
+{
+    auto data = std::make_unique<SceneData>();
+    std::uint32_t noise = 1;
+    const auto random = [&noise] {  // 0 ... 1
+        noise = noise * 1664525u + 1013904223u;
+        return static_cast<float>(noise >> 8) * 0x1p-24f;
+    };
+    const glm::vec2 side(40.0f / static_cast<float>(width), 40.0f / static_cast<float>(height));
+    Mesh& mesh = data->mesh;
+    for (std::uint32_t i = 0; i < 3 * 20000; i += 3) {
+        const float x = random() * 2.0f - 1.0f, y = random() * 2.0f - 1.0f, depth = random();
+        const float red = random(), green = random();
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            const float right = random() - 0.5f, up = random() - 0.5f;
+            mesh.positions.emplace_back(x + side.x * right, y + side.y * up, depth);
+            mesh.normals.emplace_back(0.0f, 0.0f, -1.0f);
+            mesh.uvs.emplace_back(red, green);
+            mesh.indices.push_back(i + corner);
+        }
+    }
+    frame.draw<RenderState{.cull = Cull::none}>(mesh, SmallVertexProgram{}, UvFragmentProgram{});
     return data;
 }
 
@@ -189,9 +236,13 @@ const std::vector<BenchScene>& benchScenes()
     static const std::vector<BenchScene> scenes = {
         {"clear", "nothing is drawn", clearOnly},
         {"flat_quad", "one colour on every pixel", [](Frame& f, int, int) { return layers(f, 1); }},
-        {"trilinear_plane", "a ground plane to the horizon, one trilinear RGBA8 fetch", trilinearPlane},
+        {"trilinear_plane", "a ground plane to the horizon, one trilinear RGBA8 fetch",
+         [](Frame& f, int w, int h) { return plane(f, w, h, 1); }},
+        {"anisotropic_plane", "the same plane, the fetch up to 16 times anisotropic",
+         [](Frame& f, int w, int h) { return plane(f, w, h, 16); }},
         {"layers_32", "32 full-screen layers, back to front", [](Frame& f, int, int) { return layers(f, 32); }},
         {"million_triangles", "a height field of 1,000,000 triangles, Lambert", millionTriangles},
+        {"small_triangles", "20,000 triangles of some 10 pixels, in any order", smallTriangles},
         {"stage_1.09", "five fetches and GGX on a quad", [](Frame& f, int w, int h) { return stage(f, w, h, "1.09"); }},
     };
     return scenes;

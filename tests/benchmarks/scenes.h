@@ -3,17 +3,36 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <glm/mat4x4.hpp>
+
 #include "pipeline/frame.h"
+#include "texture/texture.h"
 
 namespace relief::benchmarks {
 
-// What a scene's draws refer to, kept alive while frames run.
+// One colour on every pixel, at one depth.
+struct Layer
+{
+    float depth;
+    glm::vec4 color;
+};
+
+// What a scene's draws are made of, kept alive while frames run. Another rasterizer draws the same from it (twins.h).
 struct SceneData
 {
     virtual ~SceneData() = default;
+
+    Mesh mesh;
+    std::optional<Texture> texture;
+    int maxAnisotropy = 1;
+    float tiling = 1.0f;
+    glm::mat4 clipFromWorld{1.0f}, worldFromObject{1.0f};
+    glm::vec3 lightDir{0.0f}, color{0.0f};
+    std::vector<Layer> layers;
 };
 
 struct BenchScene
