@@ -29,11 +29,11 @@ Expected<void> checkPicture(const Stage& stage)
     return checkGolden(*target, goldenPath(stage), std::filesystem::current_path() / "golden_failures");
 }
 
-// All numbers of threads with all tile sizes; in slow builds every one of them once.
+// All numbers of threads with all tile sizes; in slow builds, few threads and many, small tiles and large ones.
 std::vector<FrameOptions> everyKindOfFrame()
 {
 #if defined(RELIEF_SHORT_TESTS)
-    return {{1, 32}, {2, 64}, {3, 128}, {8, 64}};
+    return {{3, 32}, {8, 128}};
 #else
     std::vector<FrameOptions> all;
     for (const int threads : {1, 2, 3, 8}) {
