@@ -42,6 +42,11 @@ inline Float sign(Float x)
 {
     return select(x > 0.0f, Float(1.0f), select(x < 0.0f, Float(-1.0f), Float(0.0f)));
 }
+// -1 or 1: 1 for both zeros, where sign() gives 0, and for NaN.
+inline Float signNotZero(Float x)
+{
+    return select(x < 0.0f, Float(-1.0f), Float(1.0f));
+}
 inline Float rcp(Float x)
 {
     return 1.0f / x;

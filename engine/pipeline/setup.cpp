@@ -175,8 +175,8 @@ void clipAndSetUp(const DrawGeometry& draw, const TriangleLanes& t, int lane, Tr
     Survivors all{};
     for (int begin = 0; begin < count - 2; begin += kLanes) {
         TriangleLanes fan;
-        float4 position[3] = {float4(0.0f), float4(0.0f),
-                              float4(0.0f)};  // g++ 12 takes lanes set one by one for uninitialised
+        // With values, because g++ 12 takes lanes that are set one by one for uninitialised.
+        float4 position[3] = {float4(0.0f), float4(0.0f), float4(0.0f)};
         unsigned used = 0;
         for (int i = 0; i < kLanes; ++i) {
             const int step = begin + i < count - 2 ? begin + i : begin;

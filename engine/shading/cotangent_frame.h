@@ -31,7 +31,7 @@ inline float3x3 cotangent_gradients(const float3& normal, const float3& position
     const auto differs = [](Float difference, Float a, Float b) { return difference * difference > 1e-10f * (a * b); };
     const Mask exists = differs(duv1.x * duv2.y - duv1.y * duv2.x, dot(duv1, duv1), dot(duv2, duv2)) &
                         differs(area, dot(dp1, dp1), dot(dp2, dp2));
-    const Float scale = select(exists, 1.0f / area, Float(0.0f));
+    const Float scale = 1.0f / area;
     return {select(exists, T * scale, float3(0.0f)), select(exists, B * scale, float3(0.0f)), normal};
 }
 
@@ -40,7 +40,7 @@ inline float3x3 cotangent_frame(const float3& normal, const float3& position, co
 {
     const float3x3 g = cotangent_gradients(normal, position, uv);
     const Float square = max(dot(g[0], g[0]), dot(g[1], g[1]));
-    const Float invmax = select(square > 0.0f, 1.0f / sqrt(square), Float(0.0f));
+    const Float invmax = select(square > 0.0f, rsqrt(square), Float(0.0f));
     return {g[0] * invmax, g[1] * invmax, normal};
 }
 

@@ -13,12 +13,11 @@ namespace relief {
 // counts, and 0 counts as +1: a binormal must not shrink where a sign was interpolated across a mirrored seam.
 inline float3 CreateBinormal(const float3& normal, const float3& tangent, Float binormalSign, Float worldTransformSign)
 {
-    const auto signOf = [](Float x) { return select(x < 0.0f, Float(-1.0f), Float(1.0f)); };
-    return cross(normal, tangent) * (signOf(binormalSign) * signOf(worldTransformSign));
+    return cross(normal, tangent) * (signNotZero(binormalSign) * signNotZero(worldTransformSign));
 }
 
-// From tangent space to the space that the three directions are in; of unit length; the
-// zero vector where the sum is zero. For a mesh without tangents, whose tangents are zero, it is the normal.
+// From tangent space to the space that the three directions are in; of unit length, or the zero vector where the sum is
+// zero. For a mesh without tangents, whose tangents are zero, it is the normal.
 inline float3 TangentSpaceToWorld(const float3& tangentSpaceNormal, const float3& tangent, const float3& binormal,
                                   const float3& normal)
 {
@@ -41,7 +40,7 @@ inline float3 SafeTangent(const float3& normal, const float3& tangent)
 {
     const float3 direction = normalize(tangent);
     const float3 flat = direction - normal * dot(normal, direction);
-    const Float s = select(normal.z < 0.0f, Float(-1.0f), Float(1.0f));
+    const Float s = signNotZero(normal.z);
     const Float a = -1.0f / (s + normal.z);
     const float3 basis = {1.0f + s * normal.x * normal.x * a, s * normal.x * normal.y * a, -s * normal.x};
     return normalize(select(dot(flat, flat) > 1e-6f, flat, basis));

@@ -33,7 +33,7 @@ inline glm::mat4 withoutWholeTiles(glm::mat4 worldFromObject, float tiling)
 {
     for (int i = 0; i < 3; ++i) {
         const double tiles = static_cast<double>(worldFromObject[3][i]) * static_cast<double>(tiling);
-        if (!(std::abs(tiles) < 1e300) || tiling == 0.0f) continue;
+        if (!std::isfinite(tiles) || tiling == 0.0f) continue;
         worldFromObject[3][i] = static_cast<float>((tiles - std::floor(tiles)) / static_cast<double>(tiling));
     }
     return worldFromObject;
@@ -43,8 +43,7 @@ inline glm::mat4 withoutWholeTiles(glm::mat4 worldFromObject, float tiling)
 // plane's z away.
 inline float3 axisSign(const float3& normal)
 {
-    const auto sign = [](Float n) { return select(n < 0.0f, Float(-1.0f), Float(1.0f)); };
-    return {sign(normal.x), sign(normal.y), sign(normal.z)};
+    return {signNotZero(normal.x), signNotZero(normal.y), signNotZero(normal.z)};
 }
 
 // The texture from three sides. A plane is fetched only where it has weight; elsewhere it is 0.
@@ -79,7 +78,7 @@ inline float3 TriplanarBlendLinear(const float3& normal)
 inline float3 TriplanarBlendOffset(const float3& normal, Float offset)
 {
     const float3 rest = max(abs(normal) - clamp(offset, 0.0f, 0.55f), float3(0.0f));
-    return select(rest.x + rest.y + rest.z > 0.0f, detail::sumToOne(rest), TriplanarBlendLinear(normal));
+    return detail::sumToOne(select(rest.x + rest.y + rest.z > 0.0f, rest, abs(normal)));
 }
 
 // In proportion to the fourth power: two multiplications, for negative components too.
