@@ -20,14 +20,6 @@ namespace {
 
 using Index = std::uint32_t;
 
-// What has no direction stays as it is.
-glm::vec3 normalizedOrZero(glm::vec3 v)
-{
-    constexpr float kSmallest = std::numeric_limits<float>::min();
-    const bool isZero = std::fabs(v.x) <= kSmallest && std::fabs(v.y) <= kSmallest && std::fabs(v.z) <= kSmallest;
-    return isZero ? v : (1.0f / std::sqrt(glm::dot(v, v))) * v;
-}
-
 glm::vec3 perpendicularTo(glm::vec3 normal, glm::vec3 v)
 {
     return normalizedOrZero(v - glm::dot(normal, v) * normal);
@@ -294,6 +286,13 @@ Expected<Mesh> withTangents(Mesh mesh)
     for (const glm::vec3& normal : mesh.normals) mesh.tangents.push_back(anyTangent(normal));
     setPerCorner(mesh, &Mesh::tangents, *tangents);
     return mesh;
+}
+
+glm::vec3 normalizedOrZero(const glm::vec3& v)
+{
+    constexpr float kSmallest = std::numeric_limits<float>::min();
+    const bool isZero = std::fabs(v.x) <= kSmallest && std::fabs(v.y) <= kSmallest && std::fabs(v.z) <= kSmallest;
+    return isZero ? v : (1.0f / std::sqrt(glm::dot(v, v))) * v;
 }
 
 }  // namespace relief

@@ -35,4 +35,7 @@ Expected<std::vector<glm::vec4>> cornerTangents(const Mesh& mesh);
 // normal. The same errors.
 Expected<Mesh> withTangents(Mesh mesh);
 
+// Of length 1; what has no direction stays as it is.
+glm::vec3 normalizedOrZero(const glm::vec3& v);
+
 }  // namespace relief

@@ -173,7 +173,8 @@ void Scene::draw(const Mesh& drawnMesh, const VertexProgram& vertexProgram,
     using VertexData = relief::detail::VertexDataFor<VertexProgram>;
     constexpr bool readsTangents = hasField<TANGENT, VertexData>();
     constexpr bool readsUvs =
-        hasField<TEXCOORD<0, float2>, VertexData>() || hasField<TEXCOORD<0, float4>, VertexData>();
+        hasField<TEXCOORD<0, Float>, VertexData>() || hasField<TEXCOORD<0, float2>, VertexData>() ||
+        hasField<TEXCOORD<0, float3>, VertexData>() || hasField<TEXCOORD<0, float4>, VertexData>();
     bool mirrored = false;
     if constexpr (requires { vertexProgram.object.worldFromObject; }) {
         const glm::mat4 worldFromObject = firstLane(vertexProgram.object.worldFromObject);

@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "mesh/tangents.h"
+
 namespace relief::samples {
 
 namespace {
@@ -54,8 +56,8 @@ void TangentSpaceVisualizer::ShowTangentSpace(const Scene& s, const Mesh& shown,
     const float mirrored = mirrorSign(worldFromObject);
     Lines normals, tangents, binormals;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const glm::vec3 normal = glm::normalize(normalFromObject * mesh.normals[i]);
-        const glm::vec3 tangent = glm::normalize(directions * glm::vec3(mesh.tangents[i]));
+        const glm::vec3 normal = normalizedOrZero(normalFromObject * mesh.normals[i]);
+        const glm::vec3 tangent = normalizedOrZero(directions * glm::vec3(mesh.tangents[i]));
         const glm::vec3 binormal = glm::cross(normal, tangent) * (mesh.tangents[i].w * mirrored);
         const glm::vec3 vertex = glm::vec3(worldFromObject * glm::vec4(mesh.positions[i], 1.0f)) + normal * offset;
         normals.DrawLine(vertex, vertex + normal * scale);

@@ -4,26 +4,13 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/camera.h"
+#include "common/false_color.h"
 
 namespace relief::samples::triplanar {
 
 namespace {
 
 constexpr int kDirections = 64;
-
-// Of vectors of any length, in one lane, in degrees; by a form that sees small angles.
-double angle(const float3& a, const float3& b, int lane)
-{
-    const auto unit = [lane](const float3& v) {
-        const glm::dvec3 d(static_cast<double>(v.x[lane]), static_cast<double>(v.y[lane]),
-                           static_cast<double>(v.z[lane]));
-        return d / std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-    };
-    const glm::dvec3 p = unit(a), q = unit(b), difference = p - q, sum = p + q;
-    const auto length = [](const glm::dvec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); };
-    return 2.0 * std::atan2(length(difference), length(sum)) * 57.295779513082321;
-}
 
 template <class Method>
 MethodError errorOf(Method method, float tilt, float slope)
@@ -40,11 +27,12 @@ MethodError errorOf(Method method, float tilt, float slope)
             const float3 result = method(surface, bump);
             const float3 truths[3] = {AlongProjection()(surface, bump), AlongNormal()(surface, bump),
                                       Rotated()(surface, bump)};
-            for (int lane = 0; lane < kLanes; ++lane) {
-                for (int i = 0; i < 3; ++i) {
-                    const double degrees = angle(result, truths[i], lane);
-                    error.maximum[i] = std::max(error.maximum[i], degrees);
-                    error.rms[i] += degrees * degrees / (kDirections * kDirections);
+            for (int i = 0; i < 3; ++i) {
+                const Float degrees = degreesBetween(result, truths[i]);
+                for (int lane = 0; lane < kLanes; ++lane) {
+                    const double d = static_cast<double>(degrees[lane]);
+                    error.maximum[i] = std::max(error.maximum[i], d);
+                    error.rms[i] += d * d / (kDirections * kDirections);
                 }
             }
         }
