@@ -90,13 +90,15 @@ inline float4 encodeSrgb(const float4& c)
 // Decodes by the exact table of 256 values; only blending onto an sRGB target needs it.
 inline float4 decodeSrgb8(Int packed)
 {
-    float4 c = unpackRgba8(packed);
-    for (int i = 0; i < 3; ++i) {
-        for (int lane = 0; lane < kLanes; ++lane) {
-            c[i].set(lane, srgbToLinear(static_cast<std::uint8_t>(packed[lane] >> (8 * i) & 255)));
+    std::int32_t codes[kLanes];
+    packed.store(codes);
+    float linear[3][kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+        for (int i = 0; i < 3; ++i) {
+            linear[i][lane] = srgbToLinear(static_cast<std::uint8_t>(codes[lane] >> (8 * i)));
         }
     }
-    return c;
+    return {Float::load(linear[0]), Float::load(linear[1]), Float::load(linear[2]), unpackRgba8(packed).w};
 }
 
 template <Blend blend>

@@ -2,7 +2,6 @@
 // doubles: slow, exact to the last bits, and needed only when an image is imported.
 #include "texture/color_space.h"
 
-#include <array>
 #include <cstddef>
 
 namespace relief {
@@ -34,23 +33,18 @@ constexpr std::uint16_t toUnorm16(double value)
     return static_cast<std::uint16_t>(value * 65535.0 + 0.5);
 }
 
-constexpr std::array<float, 256> kLinear = [] {
+}  // namespace
+
+constexpr std::array<float, 256> detail::kSrgbToLinear = [] {
     std::array<float, 256> table{};
     for (std::size_t code = 0; code < 256; ++code)
         table[code] = static_cast<float>(decode(static_cast<double>(code) / 255.0));
     return table;
 }();
 
-}  // namespace
-
 double decodeSrgb(double encoded)
 {
     return decode(encoded);
-}
-
-float srgbToLinear(std::uint8_t code)
-{
-    return kLinear[code];
 }
 
 // The 8-bit codes are among the 16-bit ones: code / 255 = code * 257 / 65535.

@@ -3,6 +3,7 @@
 // (3.2.3.7 and 3.2.3.8), from exact operations alone, so that the bits are the same everywhere.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "lanes/float.h"
@@ -21,7 +22,13 @@ double decodeSrgb(double encoded);
 
 // The linear value of an 8-bit code: decodeSrgb(code / 255) rounded to the nearest float. srgbToLinear(0) is 0,
 // srgbToLinear(255) is 1.
-float srgbToLinear(std::uint8_t code);
+namespace detail {
+extern const std::array<float, 256> kSrgbToLinear;
+}
+inline float srgbToLinear(std::uint8_t code)
+{
+    return detail::kSrgbToLinear[code];
+}
 
 // The same in 16 bits, rounded to nearest: what a texture holds. Half a step of 1/65535 is 0.025 of an 8-bit sRGB code
 // where the curve is steepest (the first 10 codes), and less everywhere else.
