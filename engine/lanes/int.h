@@ -73,6 +73,13 @@ inline Int shiftRightLogical(Int a, int bits)
     return Int((native::IntVector)((native::UintVector)a.value >> static_cast<unsigned>(bits)));
 }
 
+// The low halves' product plus the high halves', halves taken as signed 16-bit numbers. No overflow but for
+// -32768 in all four.
+inline Int multiplyAddHalves(Int a, Int b)
+{
+    return Int(native::multiplyAddHalves(a.value, b.value));
+}
+
 // Bit i is set where lane i is negative.
 inline unsigned signBits(Int a)
 {

@@ -30,16 +30,13 @@ inline Float exp2(Float x)
     return select(isnan(x), x, p * scaleA * scaleB);
 }
 
-// The binary logarithm. On [0.5, 2]: absolute error below 1.2e-7, relative error below 2.3e-7. Outside: relative error
-// below 1e-7. Powers of two give exact integers.
-// log2(0) = -inf, log2(+inf) = +inf, NaN below zero.
-inline Float log2(Float x)
-{
-    // Subnormal numbers are scaled into the normal range first.
-    const Mask tiny = x < 1.17549435e-38f;
-    const Int bits = asInt(select(tiny, x * 8388608.0f, x));
+namespace detail {
 
+// log2() of positive normal numbers only, less a whole number; others give something.
+inline Float log2OfNormal(Float x, Float exponentOffset = 0.0f)
+{
     // x = 2^exponent * m with m in [sqrt(1/2), sqrt(2)); log2(m) = 2/ln2 * artanh(s) with s = (m-1) / (m+1).
+    const Int bits = asInt(x);
     const Int exponent = (bits - 0x3f3504f3) >> 23;
     const Float m = asFloat(bits - (exponent << 23));
     const Float s = (m - 1.0f) / (m + 1.0f);
@@ -48,7 +45,20 @@ inline Float log2(Float x)
     p = p * t + 0.5767140958f;
     p = p * t + 0.9617988499f;
     p = p * t + 2.88539008f;
-    const Float result = Float(exponent) - select(tiny, Float(23.0f), Float(0.0f)) + s * p;
+    return Float(exponent) - exponentOffset + s * p;
+}
+
+}  // namespace detail
+
+// The binary logarithm. On [0.5, 2]: absolute error below 1.2e-7, relative error below 2.3e-7. Outside: relative error
+// below 1e-7. Powers of two give exact integers.
+// log2(0) = -inf, log2(+inf) = +inf, NaN below zero.
+inline Float log2(Float x)
+{
+    // Subnormal numbers are scaled into the normal range first.
+    const Mask tiny = x < 1.17549435e-38f;
+    const Float scaled = select(tiny, x * 8388608.0f, x);
+    const Float result = detail::log2OfNormal(scaled, select(tiny, Float(23.0f), Float(0.0f)));
 
     const float infinity = std::numeric_limits<float>::infinity();
     const Float special = select(x == 0.0f, Float(-infinity), select(x < 0.0f, Float(0.0f) / Float(0.0f), x));

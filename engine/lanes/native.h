@@ -29,3 +29,47 @@ typedef double DoubleVector __attribute__((vector_size(4 * kLanes)));  // half o
 #else
 #include "lanes/native_portable.h"
 #endif
+
+namespace relief::native {
+
+// Calls visit.operator()<quad>() for every quad of a block.
+template <class Visit>
+[[gnu::always_inline]] inline void forEachQuad(const Visit& visit)
+{
+    visit.template operator()<0>();
+    if constexpr (kLanes > 4) visit.template operator()<1>();
+    if constexpr (kLanes > 8) {
+        visit.template operator()<2>();
+        visit.template operator()<3>();
+    }
+}
+
+// out[k] lane i = the k-th 32-bit word at address(i). Words is FourWords or TwoWords: 16 or 8 bytes are read per lane.
+template <class Words, class Address>
+[[gnu::always_inline]] inline void loadTransposed(const Address& address, IntVector* out)
+{
+    Words words;
+    forEachQuad([&]<int quad>() {
+        words.template add<quad>(address(4 * quad), address(4 * quad + 1), address(4 * quad + 2), address(4 * quad + 3));
+    });
+    words.transposed(out);
+}
+
+// The same, and `far` gets what lies `distance` bytes on. Lane by lane, so that an address is needed only once.
+template <class Words, class Address>
+[[gnu::always_inline]] inline void loadTransposed(const Address& address, std::size_t distance, IntVector* near, IntVector* far)
+{
+    Words first, second;
+    forEachQuad([&]<int quad>() {
+        const std::byte* a = address(4 * quad);
+        const std::byte* b = address(4 * quad + 1);
+        const std::byte* c = address(4 * quad + 2);
+        const std::byte* d = address(4 * quad + 3);
+        first.template add<quad>(a, b, c, d);
+        second.template add<quad>(a + distance, b + distance, c + distance, d + distance);
+    });
+    first.transposed(near);
+    second.transposed(far);
+}
+
+}  // namespace relief::native

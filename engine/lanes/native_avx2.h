@@ -137,23 +137,9 @@ inline FloatVector permuteQuad(FloatVector a)
     return (FloatVector)_mm256_permute_ps(wrap(a), a0 | a1 << 2 | a2 << 4 | a3 << 6);
 }
 
-inline __m256i loadTwo(const std::byte* low, const std::byte* high)
+inline __m128i loadSixteen(const std::byte* address)
 {
-    return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(low))),
-                                   _mm_loadu_si128(reinterpret_cast<const __m128i*>(high)), 1);
-}
-
-// out[k] lane i = the k-th 32-bit word at address[i]; 16 bytes are read per lane.
-inline void loadTransposed(const std::byte* const address[8], IntVector out[4])
-{
-    const __m256i r0 = loadTwo(address[0], address[4]), r1 = loadTwo(address[1], address[5]);
-    const __m256i r2 = loadTwo(address[2], address[6]), r3 = loadTwo(address[3], address[7]);
-    const __m256i t0 = _mm256_unpacklo_epi32(r0, r1), t1 = _mm256_unpacklo_epi32(r2, r3);
-    const __m256i t2 = _mm256_unpackhi_epi32(r0, r1), t3 = _mm256_unpackhi_epi32(r2, r3);
-    out[0] = (IntVector)_mm256_unpacklo_epi64(t0, t1);
-    out[1] = (IntVector)_mm256_unpackhi_epi64(t0, t1);
-    out[2] = (IntVector)_mm256_unpacklo_epi64(t2, t3);
-    out[3] = (IntVector)_mm256_unpackhi_epi64(t2, t3);
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(address));
 }
 
 inline __m128i loadTwoHalves(const std::byte* low, const std::byte* high)
@@ -162,15 +148,69 @@ inline __m128i loadTwoHalves(const std::byte* low, const std::byte* high)
     return _mm_castps_si128(_mm_loadh_pi(_mm_castsi128_ps(l), reinterpret_cast<const __m64*>(high)));
 }
 
-// out[k] lane i = the k-th 32-bit word at address[i]; 8 bytes are read per lane.
-inline void loadTransposedPair(const std::byte* const address[8], IntVector out[2])
+// A quad's 128 bits put into their place of the two; the first one's begin a new register.
+template <int quad>
+inline __m256i insertQuad(__m256i quads, __m128i bits)
 {
-    const __m256 r0 = _mm256_castsi256_ps(
-        _mm256_set_m128i(loadTwoHalves(address[4], address[5]), loadTwoHalves(address[0], address[1])));
-    const __m256 r1 = _mm256_castsi256_ps(
-        _mm256_set_m128i(loadTwoHalves(address[6], address[7]), loadTwoHalves(address[2], address[3])));
-    out[0] = (IntVector)_mm256_shuffle_ps(r0, r1, 0x88);
-    out[1] = (IntVector)_mm256_shuffle_ps(r0, r1, 0xdd);
+    if constexpr (quad == 0) {
+        return _mm256_castsi128_si256(bits);
+    } else {
+        return _mm256_inserti128_si256(quads, bits, quad);
+    }
+}
+
+// Gathers 16 bytes per lane, quad after quad, and gives word k of every lane.
+class FourWords
+{
+public:
+    template <int quad>
+    void add(const std::byte* a, const std::byte* b, const std::byte* c, const std::byte* d)
+    {
+        r0 = insertQuad<quad>(r0, loadSixteen(a));
+        r1 = insertQuad<quad>(r1, loadSixteen(b));
+        r2 = insertQuad<quad>(r2, loadSixteen(c));
+        r3 = insertQuad<quad>(r3, loadSixteen(d));
+    }
+
+    void transposed(IntVector out[4]) const
+    {
+        const __m256i t0 = _mm256_unpacklo_epi32(r0, r1), t1 = _mm256_unpacklo_epi32(r2, r3);
+        const __m256i t2 = _mm256_unpackhi_epi32(r0, r1), t3 = _mm256_unpackhi_epi32(r2, r3);
+        out[0] = (IntVector)_mm256_unpacklo_epi64(t0, t1);
+        out[1] = (IntVector)_mm256_unpackhi_epi64(t0, t1);
+        out[2] = (IntVector)_mm256_unpacklo_epi64(t2, t3);
+        out[3] = (IntVector)_mm256_unpackhi_epi64(t2, t3);
+    }
+
+private:
+    __m256i r0 = {}, r1 = {}, r2 = {}, r3 = {};
+};
+
+// The same for 8 bytes per lane.
+class TwoWords
+{
+public:
+    template <int quad>
+    void add(const std::byte* a, const std::byte* b, const std::byte* c, const std::byte* d)
+    {
+        r0 = insertQuad<quad>(r0, loadTwoHalves(a, b));
+        r1 = insertQuad<quad>(r1, loadTwoHalves(c, d));
+    }
+
+    void transposed(IntVector out[2]) const
+    {
+        out[0] = (IntVector)_mm256_shuffle_ps(_mm256_castsi256_ps(r0), _mm256_castsi256_ps(r1), 0x88);
+        out[1] = (IntVector)_mm256_shuffle_ps(_mm256_castsi256_ps(r0), _mm256_castsi256_ps(r1), 0xdd);
+    }
+
+private:
+    __m256i r0 = {}, r1 = {};
+};
+
+// In every lane the low halves' product plus the high halves', halves taken as signed 16-bit numbers.
+inline IntVector multiplyAddHalves(IntVector a, IntVector b)
+{
+    return (IntVector)_mm256_madd_epi16(wrap(a), wrap(b));
 }
 
 }  // namespace relief::native

@@ -147,27 +147,9 @@ inline FloatVector permuteQuad(FloatVector a)
     return (FloatVector)_mm512_permute_ps(wrap(a), a0 | a1 << 2 | a2 << 4 | a3 << 6);
 }
 
-inline __m512i loadFour(const std::byte* a, const std::byte* b, const std::byte* c, const std::byte* d)
+inline __m128i loadSixteen(const std::byte* address)
 {
-    __m512i r = _mm512_castsi128_si512(_mm_loadu_si128(reinterpret_cast<const __m128i*>(a)));
-    r = _mm512_inserti32x4(r, _mm_loadu_si128(reinterpret_cast<const __m128i*>(b)), 1);
-    r = _mm512_inserti32x4(r, _mm_loadu_si128(reinterpret_cast<const __m128i*>(c)), 2);
-    return _mm512_inserti32x4(r, _mm_loadu_si128(reinterpret_cast<const __m128i*>(d)), 3);
-}
-
-// out[k] lane i = the k-th 32-bit word at address[i]; 16 bytes are read per lane.
-inline void loadTransposed(const std::byte* const address[16], IntVector out[4])
-{
-    const __m512i r0 = loadFour(address[0], address[4], address[8], address[12]);
-    const __m512i r1 = loadFour(address[1], address[5], address[9], address[13]);
-    const __m512i r2 = loadFour(address[2], address[6], address[10], address[14]);
-    const __m512i r3 = loadFour(address[3], address[7], address[11], address[15]);
-    const __m512i t0 = _mm512_unpacklo_epi32(r0, r1), t1 = _mm512_unpacklo_epi32(r2, r3);
-    const __m512i t2 = _mm512_unpackhi_epi32(r0, r1), t3 = _mm512_unpackhi_epi32(r2, r3);
-    out[0] = (IntVector)_mm512_unpacklo_epi64(t0, t1);
-    out[1] = (IntVector)_mm512_unpackhi_epi64(t0, t1);
-    out[2] = (IntVector)_mm512_unpacklo_epi64(t2, t3);
-    out[3] = (IntVector)_mm512_unpackhi_epi64(t2, t3);
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(address));
 }
 
 inline __m128i loadTwoHalves(const std::byte* low, const std::byte* high)
@@ -176,19 +158,73 @@ inline __m128i loadTwoHalves(const std::byte* low, const std::byte* high)
     return _mm_castps_si128(_mm_loadh_pi(_mm_castsi128_ps(l), reinterpret_cast<const __m64*>(high)));
 }
 
-// out[k] lane i = the k-th 32-bit word at address[i]; 8 bytes are read per lane.
-inline void loadTransposedPair(const std::byte* const address[16], IntVector out[2])
+// A quad's 128 bits put into their place among the four quads'; the first one's begin a new register.
+template <int quad>
+inline __m512i insertQuad(__m512i quads, __m128i bits)
 {
-    __m512i r0 = _mm512_castsi128_si512(loadTwoHalves(address[0], address[1]));
-    __m512i r1 = _mm512_castsi128_si512(loadTwoHalves(address[2], address[3]));
-    r0 = _mm512_inserti32x4(r0, loadTwoHalves(address[4], address[5]), 1);
-    r1 = _mm512_inserti32x4(r1, loadTwoHalves(address[6], address[7]), 1);
-    r0 = _mm512_inserti32x4(r0, loadTwoHalves(address[8], address[9]), 2);
-    r1 = _mm512_inserti32x4(r1, loadTwoHalves(address[10], address[11]), 2);
-    r0 = _mm512_inserti32x4(r0, loadTwoHalves(address[12], address[13]), 3);
-    r1 = _mm512_inserti32x4(r1, loadTwoHalves(address[14], address[15]), 3);
-    out[0] = (IntVector)_mm512_shuffle_ps(_mm512_castsi512_ps(r0), _mm512_castsi512_ps(r1), 0x88);
-    out[1] = (IntVector)_mm512_shuffle_ps(_mm512_castsi512_ps(r0), _mm512_castsi512_ps(r1), 0xdd);
+    if constexpr (quad == 0) {
+        return _mm512_castsi128_si512(bits);
+    } else {
+        return _mm512_inserti32x4(quads, bits, quad);
+    }
+}
+
+// Gathers 16 bytes per lane, quad after quad, and gives word k of every lane.
+class FourWords
+{
+public:
+    template <int quad>
+    void add(const std::byte* a, const std::byte* b, const std::byte* c, const std::byte* d)
+    {
+        r0 = insertQuad<quad>(r0, loadSixteen(a));
+        r1 = insertQuad<quad>(r1, loadSixteen(b));
+        r2 = insertQuad<quad>(r2, loadSixteen(c));
+        r3 = insertQuad<quad>(r3, loadSixteen(d));
+    }
+
+    void transposed(IntVector out[4]) const
+    {
+        const __m512i t0 = _mm512_unpacklo_epi32(r0, r1), t1 = _mm512_unpacklo_epi32(r2, r3);
+        const __m512i t2 = _mm512_unpackhi_epi32(r0, r1), t3 = _mm512_unpackhi_epi32(r2, r3);
+        out[0] = (IntVector)_mm512_unpacklo_epi64(t0, t1);
+        out[1] = (IntVector)_mm512_unpackhi_epi64(t0, t1);
+        out[2] = (IntVector)_mm512_unpacklo_epi64(t2, t3);
+        out[3] = (IntVector)_mm512_unpackhi_epi64(t2, t3);
+    }
+
+private:
+    __m512i r0 = {}, r1 = {}, r2 = {}, r3 = {};
+};
+
+// The same for 8 bytes per lane.
+class TwoWords
+{
+public:
+    template <int quad>
+    void add(const std::byte* a, const std::byte* b, const std::byte* c, const std::byte* d)
+    {
+        r0 = insertQuad<quad>(r0, loadTwoHalves(a, b));
+        r1 = insertQuad<quad>(r1, loadTwoHalves(c, d));
+    }
+
+    void transposed(IntVector out[2]) const
+    {
+        out[0] = (IntVector)_mm512_shuffle_ps(_mm512_castsi512_ps(r0), _mm512_castsi512_ps(r1), 0x88);
+        out[1] = (IntVector)_mm512_shuffle_ps(_mm512_castsi512_ps(r0), _mm512_castsi512_ps(r1), 0xdd);
+    }
+
+private:
+    __m512i r0 = {}, r1 = {};
+};
+
+// In every lane the low halves' product plus the high halves', halves taken as signed 16-bit numbers.
+inline IntVector multiplyAddHalves(IntVector a, IntVector b)
+{
+#if defined(__AVX512BW__)
+    return (IntVector)_mm512_madd_epi16(wrap(a), wrap(b));
+#else
+    return ((a << 16) >> 16) * ((b << 16) >> 16) + (a >> 16) * (b >> 16);
+#endif
 }
 
 }  // namespace relief::native

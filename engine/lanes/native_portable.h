@@ -137,25 +137,50 @@ inline FloatVector permuteQuad(FloatVector a)
     return FloatVector{a[a0], a[a1], a[a2], a[a3]};
 }
 
-// out[k] lane i = the k-th 32-bit word at address[i]; 16 bytes are read per lane.
-inline void loadTransposed(const std::byte* const address[4], IntVector out[4])
+// Gathers 16 bytes per lane, quad after quad (here there is one), and gives word k of every lane.
+class FourWords
 {
-    std::int32_t word[4];
-    for (int i = 0; i < 4; ++i) {
-        std::memcpy(word, address[i], 16);
-        for (int k = 0; k < 4; ++k) out[k][i] = word[k];
+public:
+    template <int quad>
+    void add(const std::byte* a, const std::byte* b, const std::byte* c, const std::byte* d)
+    {
+        const std::byte* const address[4] = {a, b, c, d};
+        for (int i = 0; i < 4; ++i) std::memcpy(word[i], address[i], sizeof word[i]);
     }
-}
 
-// out[k] lane i = the k-th 32-bit word at address[i]; 8 bytes are read per lane.
-inline void loadTransposedPair(const std::byte* const address[4], IntVector out[2])
-{
-    std::int32_t word[2];
-    for (int i = 0; i < 4; ++i) {
-        std::memcpy(word, address[i], 8);
-        out[0][i] = word[0];
-        out[1][i] = word[1];
+    void transposed(IntVector out[4]) const
+    {
+        for (int k = 0; k < 4; ++k) out[k] = IntVector{word[0][k], word[1][k], word[2][k], word[3][k]};
     }
+
+private:
+    std::int32_t word[4][4];
+};
+
+// The same for 8 bytes per lane.
+class TwoWords
+{
+public:
+    template <int quad>
+    void add(const std::byte* a, const std::byte* b, const std::byte* c, const std::byte* d)
+    {
+        const std::byte* const address[4] = {a, b, c, d};
+        for (int i = 0; i < 4; ++i) std::memcpy(word[i], address[i], sizeof word[i]);
+    }
+
+    void transposed(IntVector out[2]) const
+    {
+        for (int k = 0; k < 2; ++k) out[k] = IntVector{word[0][k], word[1][k], word[2][k], word[3][k]};
+    }
+
+private:
+    std::int32_t word[4][2];
+};
+
+// In every lane the low halves' product plus the high halves', halves taken as signed 16-bit numbers.
+inline IntVector multiplyAddHalves(IntVector a, IntVector b)
+{
+    return ((a << 16) >> 16) * ((b << 16) >> 16) + (a >> 16) * (b >> 16);
 }
 
 }  // namespace relief::native

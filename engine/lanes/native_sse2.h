@@ -146,34 +146,64 @@ inline FloatVector permuteQuad(FloatVector a)
     return (FloatVector)_mm_shuffle_ps(wrap(a), wrap(a), a0 | a1 << 2 | a2 << 4 | a3 << 6);
 }
 
-// out[k] lane i = the k-th 32-bit word at address[i]; 16 bytes are read per lane.
-inline void loadTransposed(const std::byte* const address[4], IntVector out[4])
-{
-    const __m128i r0 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(address[0]));
-    const __m128i r1 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(address[1]));
-    const __m128i r2 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(address[2]));
-    const __m128i r3 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(address[3]));
-    const __m128i t0 = _mm_unpacklo_epi32(r0, r1), t1 = _mm_unpacklo_epi32(r2, r3);
-    const __m128i t2 = _mm_unpackhi_epi32(r0, r1), t3 = _mm_unpackhi_epi32(r2, r3);
-    out[0] = (IntVector)_mm_unpacklo_epi64(t0, t1);
-    out[1] = (IntVector)_mm_unpackhi_epi64(t0, t1);
-    out[2] = (IntVector)_mm_unpacklo_epi64(t2, t3);
-    out[3] = (IntVector)_mm_unpackhi_epi64(t2, t3);
-}
-
 inline __m128i loadTwoHalves(const std::byte* low, const std::byte* high)
 {
     const __m128i l = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(low));
     return _mm_castps_si128(_mm_loadh_pi(_mm_castsi128_ps(l), reinterpret_cast<const __m64*>(high)));
 }
 
-// out[k] lane i = the k-th 32-bit word at address[i]; 8 bytes are read per lane.
-inline void loadTransposedPair(const std::byte* const address[4], IntVector out[2])
+// Gathers 16 bytes per lane, quad after quad (here there is one), and gives word k of every lane.
+class FourWords
 {
-    const __m128 r0 = _mm_castsi128_ps(loadTwoHalves(address[0], address[1]));
-    const __m128 r1 = _mm_castsi128_ps(loadTwoHalves(address[2], address[3]));
-    out[0] = (IntVector)_mm_shuffle_ps(r0, r1, 0x88);
-    out[1] = (IntVector)_mm_shuffle_ps(r0, r1, 0xdd);
+public:
+    template <int quad>
+    void add(const std::byte* a, const std::byte* b, const std::byte* c, const std::byte* d)
+    {
+        r0 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(a));
+        r1 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(b));
+        r2 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(c));
+        r3 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(d));
+    }
+
+    void transposed(IntVector out[4]) const
+    {
+        const __m128i t0 = _mm_unpacklo_epi32(r0, r1), t1 = _mm_unpacklo_epi32(r2, r3);
+        const __m128i t2 = _mm_unpackhi_epi32(r0, r1), t3 = _mm_unpackhi_epi32(r2, r3);
+        out[0] = (IntVector)_mm_unpacklo_epi64(t0, t1);
+        out[1] = (IntVector)_mm_unpackhi_epi64(t0, t1);
+        out[2] = (IntVector)_mm_unpacklo_epi64(t2, t3);
+        out[3] = (IntVector)_mm_unpackhi_epi64(t2, t3);
+    }
+
+private:
+    __m128i r0 = {}, r1 = {}, r2 = {}, r3 = {};
+};
+
+// The same for 8 bytes per lane.
+class TwoWords
+{
+public:
+    template <int quad>
+    void add(const std::byte* a, const std::byte* b, const std::byte* c, const std::byte* d)
+    {
+        r0 = loadTwoHalves(a, b);
+        r1 = loadTwoHalves(c, d);
+    }
+
+    void transposed(IntVector out[2]) const
+    {
+        out[0] = (IntVector)_mm_shuffle_ps(_mm_castsi128_ps(r0), _mm_castsi128_ps(r1), 0x88);
+        out[1] = (IntVector)_mm_shuffle_ps(_mm_castsi128_ps(r0), _mm_castsi128_ps(r1), 0xdd);
+    }
+
+private:
+    __m128i r0 = {}, r1 = {};
+};
+
+// In every lane the low halves' product plus the high halves', halves taken as signed 16-bit numbers.
+inline IntVector multiplyAddHalves(IntVector a, IntVector b)
+{
+    return (IntVector)_mm_madd_epi16(wrap(a), wrap(b));
 }
 
 }  // namespace relief::native

@@ -55,7 +55,7 @@ Batch gather(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count,
     }
     for (int k = 0; k < 3; ++k) {
         native::IntVector word[4];
-        native::loadTransposed(address[k], word);
+        native::loadTransposed<native::FourWords>([&](int i) { return address[k][i]; }, word);
         batch.lanes.x[k] = Int(word[0]);
         batch.lanes.y[k] = Int(word[1]);
         batch.lanes.z[k] = asFloat(Int(word[2]));

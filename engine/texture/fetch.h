@@ -1,13 +1,12 @@
 // Texels from memory to lanes, one type per texel format. What comes out is "raw": the numbers of the format times a
-// constant per channel (kOne is what 1.0 is). Filters mix raw values, and only the end result is scaled by toUnit.
+// constant (kOne is what 1.0 is). Filters mix raw values, and only the end result is scaled by toUnit.
 //
-// This is where a frame spends its time. So the formats avoid what is slow in wide registers: converting integers to
-// floats. A number below 2^16 put into the low mantissa bits of 2^23 is a float already, 2^23 + number, and the
-// difference of two such floats is exact; and a channel that sits in bits 8..15 stays there and counts 256-fold.
+// This is where a frame spends its time. So 8-bit texels are weighted in integers, two products at a time, and 16-bit
+// ones avoid the conversion to floats: a number below 2^16 put into the low mantissa bits of 2^23 is a float already,
+// 2^23 + number, and the difference of two such floats is exact.
 #pragma once
 
 #include <cstddef>
-#include <utility>
 
 #include "hlsl/types.h"
 #include "texture/address.h"
@@ -17,47 +16,31 @@ namespace relief {
 
 namespace detail {
 
-using Addresses = const std::byte* [kLanes];
-using EachLane = std::make_index_sequence<static_cast<std::size_t>(kLanes)>;
-
-// One texel index per lane, in memory: what 16 loads take their addresses from.
-class TexelIndices
+// One texel index per lane, in memory: what the loads take their addresses from.
+template <int bytesPerTexel>
+class TexelAddresses
 {
 public:
-    explicit TexelIndices(Int index) { index.store(indices); }
-
-    // The addresses of the texels from `base` on. Written out lane by lane: as a loop they would go through memory.
-    // Every call reads the indices again, on purpose: kept in registers from one call to the next, they do not fit, and
-    // moving them out and in costs more than the reading.
-    template <int bytesPerTexel>
-    void addresses(const std::byte* base, Addresses& out)
+    TexelAddresses(const std::byte* texels, Int index) : base(texels)
     {
-        asm("" : "+m"(indices));
-        fill<bytesPerTexel>(base, out, EachLane{});
+        index.store(indices);
+        asm("" : "+m"(indices));  // or the compiler would take the lanes out of the register, one shuffle each
+    }
+
+    const std::byte* operator()(int lane) const
+    {
+        return base + std::size_t{static_cast<std::uint32_t>(indices[lane])} * bytesPerTexel;
     }
 
 private:
-    template <int bytesPerTexel, std::size_t... lane>
-    void fill(const std::byte* base, Addresses& out, std::index_sequence<lane...>) const
-    {
-        ((out[lane] = base + std::size_t{static_cast<std::uint32_t>(indices[lane])} * bytesPerTexel), ...);
-    }
-
+    const std::byte* base;
     alignas(64) std::int32_t indices[kLanes];
 };
 
 inline constexpr float kBias = 8388608.0f;             // 2^23
 inline constexpr std::int32_t kBiasBits = 0x4b000000;  // its bits
 
-// The channel in bits 0..7, in bits 8..15 (256-fold), or in bits 0..15, plus kBias.
-inline Float biasedLowByte(Int word)
-{
-    return asFloat((word & 0xff) | kBiasBits);
-}
-inline Float biasedHighByte(Int word)
-{
-    return asFloat((word & 0xff00) | kBiasBits);
-}
+// The low 16 bits plus kBias.
 inline Float biasedHalf(Int word)
 {
     return asFloat((word & 0xffff) | kBiasBits);
@@ -80,36 +63,36 @@ inline float4 mix(const float4& a, const float4& b, Float t)
 
 }  // namespace detail
 
-// RGBA8: red and blue are 0..255, green and alpha 0..255 * 256.
+// RGBA8: 0..255, times 4096.
 struct FetchRgba8
 {
     static constexpr int kBytes = 4;
-    static constexpr float kOne[4] = {255.0f, 65280.0f, 255.0f, 65280.0f};
+    static constexpr float kOne = 255.0f * kSubtexels;
 
     // The texel at `index`, counted from level.texels().
     static float4 nearest(const MipLevel& level, Int index)
     {
-        detail::TexelIndices indices(index);
-        detail::Addresses address;
-        indices.addresses<kBytes>(level.texels(), address);
         native::IntVector words[2];
-        native::loadTransposedPair(address, words);
-        const Int rg(words[0]), ba = shiftRightLogical(rg, 16);
-        return {detail::biasedLowByte(rg) - detail::kBias, detail::biasedHighByte(rg) - detail::kBias,
-                detail::biasedLowByte(ba) - detail::kBias, detail::biasedHighByte(ba) - detail::kBias};
+        native::loadTransposed<native::TwoWords>(detail::TexelAddresses<kBytes>(level.texels(), index), words);
+        const Int rgba(words[0]);
+        const auto channel = [rgba](int shift) { return Float((rgba >> shift & 255) << kSubtexelBits); };
+        return {channel(0), channel(8), channel(16), channel(24)};
     }
 
-    // Between the texels at index and index + 1, and the two in the row above.
-    static float4 bilinear(const MipLevel& level, Int index, Float fx, Float fy)
+    // Between the texels at index and index + 1, and the two in the row above. fx and fy count 1/4096.
+    //
+    // Along the rows in integers, which are exact (20 bits), with red and green of both texels in one register, blue
+    // and alpha in the other; then between the rows in floats.
+    [[gnu::always_inline]] static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
     {
-        detail::TexelIndices indices(index);
-        detail::Addresses address;
-        indices.addresses<kBytes>(level.texels(), address);
         native::IntVector lower[2], upper[2];
-        native::loadTransposedPair(address, lower);
-        indices.addresses<kBytes>(level.texels() + level.rowBytes(), address);
-        native::loadTransposedPair(address, upper);
-        return detail::mix(alongRow(lower, fx), alongRow(upper, fx), fy);
+        native::loadTransposed<native::TwoWords>(detail::TexelAddresses<kBytes>(level.texels(), index),
+                                                 level.rowBytes(), lower, upper);
+        const Int weights = (fx << 16) + (kSubtexels - fx);  // of the left texel in the low half, of the right one above
+        const Row a = alongRow(lower, weights), b = alongRow(upper, weights);
+        const Float t = Float(fy) * (1.0f / kSubtexels);
+        const auto between = [t](Int l, Int u) { return Float(l) + Float(u - l) * t; };
+        return {between(a.red, b.red), between(a.green, b.green), between(a.blue, b.blue), between(a.alpha, b.alpha)};
     }
 
     static Float mix(Float a, Float b, Float t) { return detail::mix(a, b, t); }
@@ -117,21 +100,24 @@ struct FetchRgba8
     // Correctly rounded c / 255, without a division: 1/255 = 1/256 + 1/65280 (tests/sampler.cpp tries all codes).
     static float4 toUnit(const float4& raw)
     {
-        constexpr float large = 1.0f / 256.0f, small = 1.0f / 65280.0f;
-        constexpr float large256 = large / 256.0f, small256 = small / 256.0f;
-        return {raw.x * large + raw.x * small, raw.y * large256 + raw.y * small256, raw.z * large + raw.z * small,
-                raw.w * large256 + raw.w * small256};
+        constexpr float large = 1.0f / (256.0f * kSubtexels), small = 1.0f / (65280.0f * kSubtexels);
+        return {raw.x * large + raw.x * small, raw.y * large + raw.y * small, raw.z * large + raw.z * small,
+                raw.w * large + raw.w * small};
     }
 
 private:
-    static float4 alongRow(const native::IntVector words[2], Float fx)
+    struct Row
     {
-        const Int rg0(words[0]), ba0 = shiftRightLogical(rg0, 16);
-        const Int rg1(words[1]), ba1 = shiftRightLogical(rg1, 16);
-        return {detail::mixBiased(detail::biasedLowByte(rg0), detail::biasedLowByte(rg1), fx),
-                detail::mixBiased(detail::biasedHighByte(rg0), detail::biasedHighByte(rg1), fx),
-                detail::mixBiased(detail::biasedLowByte(ba0), detail::biasedLowByte(ba1), fx),
-                detail::mixBiased(detail::biasedHighByte(ba0), detail::biasedHighByte(ba1), fx)};
+        Int red, green, blue, alpha;
+    };
+
+    static Row alongRow(const native::IntVector texels[2], Int weights)
+    {
+        const Int left(texels[0]), right(texels[1]);
+        const Int rg = (left & 0xffff) | right << 16;
+        const Int ba = shiftRightLogical(left, 16) | (right & static_cast<std::int32_t>(0xffff0000));
+        const auto even = [weights](Int bytes) { return multiplyAddHalves(bytes & 0x00ff00ff, weights); };
+        return {even(rg), even(shiftRightLogical(rg, 8)), even(ba), even(shiftRightLogical(ba, 8))};
     }
 };
 
@@ -139,30 +125,24 @@ private:
 struct FetchRgba16
 {
     static constexpr int kBytes = 8;
-    static constexpr float kOne[4] = {65535.0f, 65535.0f, 65535.0f, 65535.0f};
+    static constexpr float kOne = 65535.0f;
 
     static float4 nearest(const MipLevel& level, Int index)
     {
-        detail::TexelIndices indices(index);
-        detail::Addresses address;
-        indices.addresses<kBytes>(level.texels(), address);
         native::IntVector words[2];
-        native::loadTransposedPair(address, words);
+        native::loadTransposed<native::TwoWords>(detail::TexelAddresses<kBytes>(level.texels(), index), words);
         const Int rg(words[0]), ba(words[1]);
         return {detail::biasedHalf(rg) - detail::kBias, detail::biasedHalf(shiftRightLogical(rg, 16)) - detail::kBias,
                 detail::biasedHalf(ba) - detail::kBias, detail::biasedHalf(shiftRightLogical(ba, 16)) - detail::kBias};
     }
 
-    static float4 bilinear(const MipLevel& level, Int index, Float fx, Float fy)
+    [[gnu::always_inline]] static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
     {
-        detail::TexelIndices indices(index);
-        detail::Addresses address;
-        indices.addresses<kBytes>(level.texels(), address);
         native::IntVector lower[4], upper[4];
-        native::loadTransposed(address, lower);
-        indices.addresses<kBytes>(level.texels() + level.rowBytes(), address);
-        native::loadTransposed(address, upper);
-        return detail::mix(alongRow(lower, fx), alongRow(upper, fx), fy);
+        native::loadTransposed<native::FourWords>(detail::TexelAddresses<kBytes>(level.texels(), index),
+                                                  level.rowBytes(), lower, upper);
+        const Float tx = Float(fx) * (1.0f / kSubtexels), ty = Float(fy) * (1.0f / kSubtexels);
+        return detail::mix(alongRow(lower, tx), alongRow(upper, tx), ty);
     }
 
     static Float mix(Float a, Float b, Float t) { return detail::mix(a, b, t); }
@@ -191,31 +171,19 @@ private:
 struct FetchRgba32Float
 {
     static constexpr int kBytes = 16;
-    static constexpr float kOne[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    static constexpr float kOne = 1.0f;
 
-    static float4 nearest(const MipLevel& level, Int index)
-    {
-        detail::TexelIndices indices(index);
-        detail::Addresses address;
-        indices.addresses<kBytes>(level.texels(), address);
-        return load(address);
-    }
+    static float4 nearest(const MipLevel& level, Int index) { return load(level.texels(), index); }
 
-    static float4 bilinear(const MipLevel& level, Int index, Float fx, Float fy)
+    static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
     {
-        detail::TexelIndices indices(index);
-        detail::Addresses address;
-        indices.addresses<kBytes>(level.texels(), address);
-        const float4 lowerLeft = load(address);
-        indices.addresses<kBytes>(level.texels() + kBytes, address);
-        const float4 lowerRight = load(address);
-        indices.addresses<kBytes>(level.texels() + level.rowBytes(), address);
-        const float4 upperLeft = load(address);
-        indices.addresses<kBytes>(level.texels() + level.rowBytes() + kBytes, address);
-        const float4 upperRight = load(address);
+        const std::byte *lower = level.texels(), *upper = lower + level.rowBytes();
+        const float4 lowerLeft = load(lower, index), lowerRight = load(lower + kBytes, index);
+        const float4 upperLeft = load(upper, index), upperRight = load(upper + kBytes, index);
+        const Float tx = Float(fx) * (1.0f / kSubtexels), ty = Float(fy) * (1.0f / kSubtexels);
         float4 result;
         for (int c = 0; c < 4; ++c) {
-            result[c] = mix(mix(lowerLeft[c], lowerRight[c], fx), mix(upperLeft[c], upperRight[c], fx), fy);
+            result[c] = mix(mix(lowerLeft[c], lowerRight[c], tx), mix(upperLeft[c], upperRight[c], tx), ty);
         }
         return result;
     }
@@ -226,10 +194,10 @@ struct FetchRgba32Float
     static float4 toUnit(const float4& raw) { return raw; }
 
 private:
-    static float4 load(const detail::Addresses& address)
+    static float4 load(const std::byte* texels, Int index)
     {
         native::IntVector words[4];
-        native::loadTransposed(address, words);
+        native::loadTransposed<native::FourWords>(detail::TexelAddresses<kBytes>(texels, index), words);
         return {asFloat(Int(words[0])), asFloat(Int(words[1])), asFloat(Int(words[2])), asFloat(Int(words[3]))};
     }
 };

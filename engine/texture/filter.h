@@ -45,15 +45,14 @@ inline unsigned wantedLanes()
 struct Pairs
 {
     Int x, y;
-    Float fx, fy;
+    Int fx, fy;  // 0..kSubtexels - 1
 };
 
 [[gnu::always_inline]] inline Pairs pairsOn(const Place& place, const MipLevel& level)
 {
     const Int x = pairPosition(place.sampler.u, place.u, level.width(), level.widthInFloat());
     const Int y = pairPosition(place.sampler.v, place.v, level.height(), level.heightInFloat());
-    constexpr float one = 1.0f / kSubtexels;
-    return {x >> kSubtexelBits, y >> kSubtexelBits, Float(x & kSubtexelMask) * one, Float(y & kSubtexelMask) * one};
+    return {x >> kSubtexelBits, y >> kSubtexelBits, x & kSubtexelMask, y & kSubtexelMask};
 }
 
 template <class Fetch>
@@ -74,7 +73,7 @@ float4 texelOrBorder(const sampler2D& s, const MipLevel& level, Int x, Int y)
     const Int column = clamp(x, 0, level.width() + 1), row = clamp(y, 0, level.height() + 1);
     const float4 texel = Fetch::nearest(level, row * level.rowTexels() + column);
     float4 result;
-    for (int c = 0; c < 4; ++c) result[c] = select(outside, Float(s.borderColor[c] * Fetch::kOne[c]), texel[c]);
+    for (int c = 0; c < 4; ++c) result[c] = select(outside, Float(s.borderColor[c] * Fetch::kOne), texel[c]);
     return result;
 }
 
@@ -85,8 +84,8 @@ template <class Fetch>
     const float4 lowerRight = texelOrBorder<Fetch>(s, level, at.x + 1, at.y);
     const float4 upperLeft = texelOrBorder<Fetch>(s, level, at.x, at.y + 1);
     const float4 upperRight = texelOrBorder<Fetch>(s, level, at.x + 1, at.y + 1);
-    return mixEach<Fetch>(mixEach<Fetch>(lowerLeft, lowerRight, at.fx), mixEach<Fetch>(upperLeft, upperRight, at.fx),
-                          at.fy);
+    const Float tx = Float(at.fx) * (1.0f / kSubtexels), ty = Float(at.fy) * (1.0f / kSubtexels);
+    return mixEach<Fetch>(mixEach<Fetch>(lowerLeft, lowerRight, tx), mixEach<Fetch>(upperLeft, upperRight, tx), ty);
 }
 
 // --- on one level ---
@@ -135,34 +134,36 @@ template <class Fetch>
     return mixEach<Fetch>(a, b, Float(fraction) * (1.0f / kLodOne));
 }
 
-// Every lane on its own level, `lod` in 0..levels - 1 with kLodBits of fraction. One round per distinct level.
-//
-// `guess` is the level that a caller expects, 0..levels - 1. It changes no result: where it is right, as it mostly is,
-// the processor predicts the branch and is at the texels before the logarithm in `lod` is done.
+// Every lane on its own level: one round per distinct level.
 template <class Fetch>
-[[gnu::always_inline]] inline float4 sampleEachLevel(const Place& place, Int lod, int guess)
+[[gnu::noinline]] float4 sampleSeveralLevels(const Place& place, Int level, Int fraction)
+{
+    std::int32_t levels[kLanes];
+    level.store(levels);
+    float4 result(Float(0.0f));
+    for (unsigned waiting = wantedLanes(); waiting != 0;) {
+        const int k = levels[std::countr_zero(waiting)];
+        const Mask here = level == k;
+        const float4 colour = sampleLevels<Fetch>(place, k, fraction, here.bits() & waiting);
+        for (int c = 0; c < 4; ++c) result[c] = select(here, colour[c], result[c]);
+        waiting &= ~here.bits();
+    }
+    return result;
+}
+
+// At `lod`, in 0..levels - 1 with kLodBits of fraction.
+//
+// `guess` is the level that a caller expects, 0..levels - 1. It changes no result: where all lanes are on it, as they
+// mostly are, the processor predicts the branch and is at the texels before the logarithm in `lod` is done.
+template <class Fetch>
+[[gnu::always_inline]] inline float4 sampleMipLevels(const Place& place, Int lod, int guess)
 {
     const bool trilinear = place.sampler.filter == Filter::trilinear;
     const Int level = (trilinear ? lod : lod + kLodOne / 2) >> kLodBits;
     const Int fraction = lod & (kLodOne - 1);
-
-    unsigned waiting = wantedLanes();
-    Mask done = false;
-    float4 result(Float(0.0f));
-    do {
-        int k = guess;
-        if (((level == k).bits() & waiting) != waiting) [[unlikely]] {
-            std::int32_t levels[kLanes];
-            level.store(levels);
-            k = levels[std::countr_zero(waiting)];
-        }
-        const Mask here = level == k;
-        const float4 colour = sampleLevels<Fetch>(place, k, fraction, here.bits() & waiting);
-        for (int c = 0; c < 4; ++c) result[c] = select(done, result[c], colour[c]);
-        done |= here;
-        waiting &= ~here.bits();
-    } while (waiting != 0);
-    return result;
+    if (((level != guess).bits() & wantedLanes()) == 0) [[likely]]
+        return sampleLevels<Fetch>(place, guess, fraction, wantedLanes());
+    return sampleSeveralLevels<Fetch>(place, level, fraction);
 }
 
 }  // namespace relief

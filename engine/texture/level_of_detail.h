@@ -22,6 +22,14 @@ inline Float isotropicLevel(const float2& dX, const float2& dY)
     return 0.5f * log2(longestSquare(dX, dY));
 }
 
+// The same for a caller that limits it to the levels of a texture, -16..15.99 of bias included: what is farther away is
+// only roughly right. NaN counts as +infinity.
+inline Float limitedIsotropicLevel(Float longestSquare)
+{
+    const Float limited = Float(native::min(longestSquare.value, Float(0x1p126f).value));  // not NaN
+    return 0.5f * detail::log2OfNormal(Float(native::max(limited.value, Float(0x1p-100f).value)));
+}
+
 // The area that a pixel covers, as a row of `taps` samples along the vector `axis`, each taken at level `lod`.
 struct AnisotropicFootprint
 {

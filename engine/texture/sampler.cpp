@@ -19,11 +19,15 @@ inline const Texture& textureOf(const sampler2D& s)
     return s.texture ? *s.texture : Texture::white();
 }
 
-// `lod` after bias, NaN included, to what sampleEachLevel takes: limited to the levels that exist.
+// `lod` after bias, NaN included, to what sampleMipLevels takes: limited by the sampler (minLod wins where it is above
+// maxLod) and to the levels that exist. NaN becomes the upper limit.
 inline Int fixedLevel(const sampler2D& s, const Texture& texture, Float lod)
 {
-    const Float last = static_cast<float>(texture.levelCount() - 1);
-    return roundToInt(clamp(limitLevel(lod, s.minLod, s.maxLod), 0.0f, last) * static_cast<float>(kLodOne));
+    const auto last = static_cast<float>(texture.levelCount() - 1);
+    const auto existing = [last](float level) { return level > 0.0f ? std::min(level, last) : 0.0f; };
+    const float low = existing(s.minLod), high = std::max(low, s.maxLod < last ? existing(s.maxLod) : last);
+    const Float limited = Float(native::max(native::min(lod.value, Float(high).value), Float(low).value));
+    return Int(native::roundToInt((limited * static_cast<float>(kLodOne)).value));
 }
 
 // --- one function per texel format; lanes are handed on one by one, because single ones travel in registers ---
@@ -37,7 +41,7 @@ template <class Fetch>
 template <class Fetch>
 [[gnu::noinline]] float4 mipChainIn(const sampler2D& s, const Texture& texture, Float u, Float v, Int lod, int guess)
 {
-    return Fetch::toUnit(sampleEachLevel<Fetch>(placeOf(s, texture, u, v), lod, guess));
+    return Fetch::toUnit(sampleMipLevels<Fetch>(placeOf(s, texture, u, v), lod, guess));
 }
 
 inline float4 sampleFinest(const sampler2D& s, const Texture& texture, Float u, Float v)
@@ -164,6 +168,20 @@ inline Float limitBias(const sampler2D& s, Float bias)
 {
     return clamp(bias + s.lodBias, -16.0f, 15.99f);
 }
+inline float limitBias(const sampler2D& s, float bias)
+{
+    const float sum = bias + s.lodBias;
+    return sum > -16.0f ? std::min(sum, 15.99f) : -16.0f;
+}
+
+inline bool allAtMost(Float a, float limit, unsigned lanes)
+{
+    return ((a <= limit).bits() & lanes) == lanes;
+}
+inline bool allAtMost(float a, float limit, unsigned)
+{
+    return a <= limit;
+}
 
 inline float2 toTexels(const Texture& texture, const float2& change)
 {
@@ -191,9 +209,10 @@ struct Gradients
     float2 dx, dy;
 };
 
-// `gradients` is a function: it is called only where mip levels are wanted. `bias` is without the sampler's own.
-template <class Function>
-[[gnu::always_inline]] inline float4 sampleWith(const sampler2D& s, Float u, Float v, Float bias, Function gradients)
+// `gradients` is a function: it is called only where mip levels are wanted. `bias` is without the sampler's own, a float
+// or one per lane.
+template <class Bias, class Function>
+[[gnu::always_inline]] inline float4 sampleWith(const sampler2D& s, Float u, Float v, Bias bias, Function gradients)
 {
     const Texture& texture = textureOf(s);
     if (isConstant(s, texture)) return sampleConstant(s, texture);
@@ -203,16 +222,16 @@ template <class Function>
 
     // Magnified as a whole: no logarithm is needed to know that level 0 is wanted, with one sample.
     const Float square = longestSquare(dX, dY);
-    const Float wholeBias = limitBias(s, bias);
-    const unsigned wanted = wantedLanes();
-    const bool magnified = (((square <= 1.0f) & (wholeBias <= 0.0f)).bits() & wanted) == wanted;
+    const Bias wholeBias = limitBias(s, bias);
+    const bool magnified = allAtMost(square, 1.0f, wantedLanes()) && allAtMost(wholeBias, 0.0f, wantedLanes());
     if (magnified && s.minLod <= 0.0f) return sampleFinestCounted(s, texture, u, v);
 
     if (isAnisotropic(s)) {
         const auto limit = static_cast<float>(std::min(s.maxAnisotropy, 16));
         return sampleAnisotropic(s, texture, u, v, anisotropicFootprint(dX, dY, limit), wholeBias);
     }
-    return sampleIsotropic(s, texture, u, v, 0.5f * log2(square) + wholeBias, likelyLevel(s, texture, square));
+    return sampleIsotropic(s, texture, u, v, limitedIsotropicLevel(square) + wholeBias,
+                           likelyLevel(s, texture, square));
 }
 
 Float impliedLevel(const sampler2D& s, const Texture& texture, const float2& uv)
@@ -226,7 +245,12 @@ Float impliedLevel(const sampler2D& s, const Texture& texture, const float2& uv)
 
 namespace detail {
 
-float4 sampleImplicit(const sampler2D& s, Float u, Float v, Float bias)
+float4 sampleImplicit(const sampler2D& s, Float u, Float v)
+{
+    return sampleWith(s, u, v, 0.0f, [u, v] { return Gradients{{ddx(u), ddx(v)}, {ddy(u), ddy(v)}}; });
+}
+
+float4 sampleBias(const sampler2D& s, Float u, Float v, Float bias)
 {
     return sampleWith(s, u, v, bias, [u, v] { return Gradients{{ddx(u), ddx(v)}, {ddy(u), ddy(v)}}; });
 }

@@ -39,7 +39,8 @@ struct sampler2D
 namespace detail {
 
 // Single lanes as parameters travel in registers, vectors of them through memory.
-float4 sampleImplicit(const sampler2D& s, Float u, Float v, Float bias);
+float4 sampleImplicit(const sampler2D& s, Float u, Float v);
+float4 sampleBias(const sampler2D& s, Float u, Float v, Float bias);
 float4 sampleGradients(const sampler2D& s, Float u, Float v, const float2& dx, const float2& dy);
 float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod);
 
@@ -49,7 +50,7 @@ float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod);
 // must get here together: call it outside of anything that only some lanes do, or use tex2Dgrad or tex2Dlod.
 inline float4 tex2D(const sampler2D& s, const float2& uv)
 {
-    return detail::sampleImplicit(s, uv.x, uv.y, 0.0f);
+    return detail::sampleImplicit(s, uv.x, uv.y);
 }
 
 // The colour at uv where `needed`, 0 elsewhere; nothing is fetched where no pixel of the block needs it. HLSL's branch
@@ -72,7 +73,7 @@ inline float4 tex2Dlod(const sampler2D& s, const float4& uvLod)
 // tex2D at uvBias.xy with uvBias.w added to the level of detail.
 inline float4 tex2Dbias(const sampler2D& s, const float4& uvBias)
 {
-    return detail::sampleImplicit(s, uvBias.x, uvBias.y, uvBias.w);
+    return detail::sampleBias(s, uvBias.x, uvBias.y, uvBias.w);
 }
 
 // The level that tex2D would use, bias and limits included, in 0..levels - 1; and without limits: below 0 is magnified,
