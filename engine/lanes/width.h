@@ -46,4 +46,10 @@ constexpr int laneY(int lane)
     return (lane & 2) / 2 + (lane & 8) / 4;
 }
 
+// The lane of a pixel.
+constexpr int laneAt(int x, int y)
+{
+    return (x & 1) + (x & 2) * 2 + (y & 1) * 2 + (y & 2) * 4;
+}
+
 }  // namespace relief

@@ -134,7 +134,7 @@ public:
             Interpolators again = input;
             asm volatile("" : "+m"(again));  // new to the compiler every time, or it would run the program once
             Discard discard;
-            sum += runProgram(again, discard);
+            sum += runProgram([&] { return again; }, discard);
         }
         activeLanes = kAllLanes;
         return sum.x[0] + sum.y[0] + sum.z[0] + sum.w[0];
@@ -150,12 +150,14 @@ private:
                     componentsOf(geometry, chunk, triangle.vertex[2]));
     }
 
-    float4 runProgram(const Interpolators& input, [[maybe_unused]] Discard& discard) const
+    // `input` is a function: what it returns becomes the program's parameter without a copy, in registers.
+    template <class Input>
+    float4 runProgram(const Input& input, [[maybe_unused]] Discard& discard) const
     {
         if constexpr (kMayDiscard) {
-            return fragmentProgram(input, discard);
+            return fragmentProgram(input(), discard);
         } else {
-            return fragmentProgram(input);
+            return fragmentProgram(input());
         }
     }
 
@@ -201,9 +203,12 @@ private:
         counts.quads += static_cast<unsigned>(std::popcount(quads)) / 4;
         counts.pixels += static_cast<unsigned>(count(live));
 
-        const Interpolators input = interpolate<Interpolators>(triangle, corners, weights, block.x, block.y, depth);
         Discard discard;
-        float4 color = runProgram(input, discard);
+        float4 color = runProgram(
+            [&] {
+                return interpolate<Interpolators>(triangle, corners, weights, block.x, block.y, depth);
+            },
+            discard);
         if constexpr (kMayDiscard) {
             live &= !discard.discarded;
             if constexpr (kUsesDepth) testAndWriteDepth();

@@ -82,24 +82,25 @@ void Tile::load(int x0, int y0, const Framebuffer& target, float transientDepth)
 
 namespace {
 
-// Copies blocks of one value per lane to rows of pixels. `get` gives block b's lanes.
-template <class Pixel, class Get>
-void storeRows(int width, int height, int blocksWide, std::size_t stride, Pixel* target, const Get& get)
+// Copies blocks of pixels, row after row each, to the rows of an image. `store` puts block b's into an array.
+template <class Pixel, class Store>
+void storeRows(int width, int height, int blocksWide, std::size_t stride, Pixel* target, const Store& store)
 {
     for (int y = 0; y < height; y += kBlockHeight) {
         for (int x = 0; x < width; x += kBlockWidth) {
-            const Pixel* lanes = get(y / kBlockHeight * blocksWide + x / kBlockWidth);
+            Pixel rows[kLanes];
+            store(y / kBlockHeight * blocksWide + x / kBlockWidth, rows);
             Pixel* corner = target + static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
-            if (x + kBlockWidth <= width && y + kBlockHeight <= height) {
-                for (int i = 0; i < kLanes; i += 2) {
-                    std::memcpy(corner + static_cast<std::size_t>(laneY(i)) * stride + laneX(i), lanes + i,
-                                2 * sizeof(Pixel));
+            const auto copy = [&](int columns, int count) {
+                for (int row = 0; row < count; ++row) {
+                    std::memcpy(corner + static_cast<std::size_t>(row) * stride, rows + row * kBlockWidth,
+                                static_cast<std::size_t>(columns) * sizeof(Pixel));
                 }
-                continue;
-            }
-            for (int i = 0; i < kLanes; ++i) {
-                if (x + laneX(i) < width && y + laneY(i) < height)
-                    corner[static_cast<std::size_t>(laneY(i)) * stride + static_cast<std::size_t>(laneX(i))] = lanes[i];
+            };
+            if (x + kBlockWidth <= width && y + kBlockHeight <= height) {
+                copy(kBlockWidth, kBlockHeight);  // with the sizes as constants
+            } else {
+                copy(std::min(kBlockWidth, width - x), std::min(kBlockHeight, height - y));
             }
         }
     }
@@ -114,19 +115,20 @@ void Tile::store(Framebuffer& target) const
     const int width = std::min(size, target.width() - originX), height = std::min(size, target.height() - originY);
     const auto lane = [](int block) { return static_cast<std::size_t>(block) * kLanes; };
     if (mFormat == ColorFormat::rgba32f) {
-        glm::vec4 pixels[kLanes];
-        storeRows(width, height, blocksWide, stride, target.color32f().data() + first, [&](int block) {
+        storeRows(width, height, blocksWide, stride, target.color32f().data() + first, [&](int block, glm::vec4* rows) {
             const float* r = mColor32f.get() + lane(block) * 4;
-            for (int i = 0; i < kLanes; ++i) pixels[i] = {r[i], r[kLanes + i], r[2 * kLanes + i], r[3 * kLanes + i]};
-            return pixels;
+            for (int i = 0; i < kLanes; ++i) {
+                rows[laneY(i) * kBlockWidth + laneX(i)] = {r[i], r[kLanes + i], r[2 * kLanes + i], r[3 * kLanes + i]};
+            }
         });
     } else {
         storeRows(width, height, blocksWide, stride, reinterpret_cast<std::int32_t*>(target.color8().data()) + first,
-                  [&](int block) { return mColor8.get() + lane(block); });
+                  [&](int block, std::int32_t* rows) { inRows(Int::load(mColor8.get() + lane(block))).store(rows); });
     }
     if (!target.depth().empty()) {
-        storeRows(width, height, blocksWide, stride, target.depth().data() + first,
-                  [&](int block) { return mDepth.get() + lane(block); });
+        storeRows(width, height, blocksWide, stride, target.depth().data() + first, [&](int block, float* rows) {
+            asFloat(inRows(asInt(Float::load(mDepth.get() + lane(block))))).store(rows);
+        });
     }
 }
 
