@@ -14,6 +14,7 @@ const char* const kVertexHead = R"glsl(#version 450 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 tangent;
 vec4 flipped(vec4 clip) { return vec4(clip.x, -clip.y, clip.zw); }
 )glsl";
 
@@ -142,7 +143,6 @@ Expected<Mesa> Mesa::create(int width, int height, LevelOfDetail levelOfDetail)
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glFrontFace(GL_CCW);  // in OpenGL's eyes, which see the picture upside down: clockwise
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
     glDisable(GL_DITHER);
     return Mesa(context);
 }
@@ -165,6 +165,14 @@ void MesaProgram::set(const char* uniform, const glm::vec3& value) const
 void MesaProgram::set(const char* uniform, const glm::vec4& value) const
 {
     glProgramUniform4fv(name, glGetUniformLocation(name, uniform), 1, &value[0]);
+}
+void MesaProgram::set(const char* uniform, const float3& value) const
+{
+    set(uniform, glm::vec3(value.x[0], value.y[0], value.z[0]));
+}
+void MesaProgram::set(const char* uniform, const float4& value) const
+{
+    set(uniform, glm::vec4(value.x[0], value.y[0], value.z[0], value.w[0]));
 }
 void MesaProgram::set(const char* uniform, const glm::mat3& value) const
 {
@@ -199,25 +207,41 @@ MesaMesh Mesa::makeMesh(const Mesh& mesh)
     addAttribute(vertexArray, 0, 3, mesh.positions);
     addAttribute(vertexArray, 1, 3, mesh.normals);
     addAttribute(vertexArray, 2, 2, mesh.uvs);
+    addAttribute(vertexArray, 3, 4, mesh.tangents);
     glVertexArrayElementBuffer(vertexArray, makeBuffer(mesh.indices));
     return {vertexArray, static_cast<int>(mesh.indices.size())};
 }
 
-MesaTexture Mesa::makeTexture(const Texture& texture)
+MesaTexture Mesa::makeTexture(const sampler2D& sampler)
 {
+    struct Format
+    {
+        GLenum inMemory, channel;
+    };
+    const Format formats[] = {{GL_RGBA8, GL_UNSIGNED_BYTE}, {GL_RGBA16, GL_UNSIGNED_SHORT}, {GL_RGBA32F, GL_FLOAT}};
+    const GLint smaller[] = {GL_NEAREST_MIPMAP_NEAREST, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR_MIPMAP_LINEAR};
+    const GLint addresses[] = {GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_BORDER};
+    const Texture& texture = sampler.texture ? *sampler.texture : Texture::white();
+    const Format format = formats[static_cast<int>(texture.format())];
+    const int levels = sampler.mipmaps ? texture.levelCount() : 1;
+
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);
-    glTextureStorage2D(name, texture.levelCount(), GL_RGBA8, texture.width(), texture.height());
-    for (int k = 0; k < texture.levelCount(); ++k) {
+    glTextureStorage2D(name, levels, format.inMemory, texture.width(), texture.height());
+    for (int k = 0; k < levels; ++k) {
         const MipLevel& level = texture.level(k);
+        const std::size_t first = (static_cast<std::size_t>(level.rowTexels()) + 1) *
+                                  static_cast<std::size_t>(bytesPerTexel(texture.format()));  // after the frame
         glPixelStorei(GL_UNPACK_ROW_LENGTH, level.rowTexels());
-        glTextureSubImage2D(name, k, 0, 0, level.width(), level.height(), GL_RGBA, GL_UNSIGNED_BYTE,
-                            level.texel<std::uint8_t>(0, 0));
+        glTextureSubImage2D(name, k, 0, 0, level.width(), level.height(), GL_RGBA, format.channel,
+                            level.texels() + first);
     }
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    const bool nearest = sampler.filter == Filter::nearest;
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, smaller[static_cast<int>(sampler.filter)]);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, addresses[static_cast<int>(sampler.u)]);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, addresses[static_cast<int>(sampler.v)]);
+    glTextureParameterfv(name, GL_TEXTURE_BORDER_COLOR, &sampler.borderColor[0]);
     return {name};
 }
 
@@ -225,23 +249,28 @@ MesaTexture Mesa::makeTexture(const Texture& texture)
 
 void Mesa::clear(const glm::vec4& color)
 {
+    glDepthMask(GL_TRUE);
     glClearColor(color.r, color.g, color.b, color.a);
     glClearDepthf(1.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void Mesa::draw(const MesaProgram& program, const MesaMesh& mesh, MesaCull cull)
+void Mesa::draw(const MesaProgram& program, const MesaMesh& mesh, const RenderState& state,
+                const std::vector<MesaTexture>& textures)
 {
-    (cull == MesaCull::back ? glEnable : glDisable)(GL_CULL_FACE);
+    glDepthFunc(GL_NEVER + static_cast<GLenum>(state.depthTest));  // both count in Direct3D's order
+    glDepthMask(state.depthWrite ? GL_TRUE : GL_FALSE);
+    (state.cull == Cull::none ? glDisable : glEnable)(GL_CULL_FACE);
+    glCullFace(state.cull == Cull::front ? GL_FRONT : GL_BACK);
+    (state.blend == Blend::off ? glDisable : glEnable)(GL_BLEND);
+    if (state.blend == Blend::additive) glBlendFunc(GL_ONE, GL_ONE);
+    if (state.blend == Blend::alpha) glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+        glBindTextureUnit(static_cast<GLuint>(i), textures[i].name);
+    }
     glUseProgram(program.name);
     glBindVertexArray(mesh.vertexArray);
     glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
-}
-
-void Mesa::draw(const MesaProgram& program, const MesaMesh& mesh, MesaCull cull, const MesaTexture& texture)
-{
-    glBindTextureUnit(0, texture.name);
-    draw(program, mesh, cull);
 }
 
 void Mesa::finish()

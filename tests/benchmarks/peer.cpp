@@ -54,8 +54,8 @@ struct Pair
     Pair(Framebuffer created, const Setting& setting, const BenchScene& scene, Mesa& peer)
         : target(std::move(created)), frame(target, {.threads = setting.threads}), mesa(peer)
     {
-        frame.clear(kBackground);
         data = scene.record(frame, setting.size.width, setting.size.height);
+        frame.clear(kBackground);
     }
 
     void runRelief() { frame.run(); }
@@ -74,6 +74,7 @@ Expected<std::unique_ptr<Pair>> prepare(const Setting& setting, const Twin& twin
     Expected<Framebuffer> target = Framebuffer::create(setting.size.width, setting.size.height, ColorFormat::rgba8);
     if (!target) return tl::unexpected(target.error());
     auto pair = std::make_unique<Pair>(std::move(*target), setting, *scene, mesa);
+    if (!pair->data->problem.empty()) return fail(pair->data->problem);
     Expected<MesaDrawing> drawing = twin.prepare(mesa, *pair->data);
     if (!drawing) return tl::unexpected(drawing.error());
     pair->drawing = std::move(*drawing);

@@ -212,24 +212,31 @@ std::unique_ptr<SceneData> smallTriangles(Frame& frame, int width, int height)
     return data;
 }
 
-struct StageData final : SceneData
+std::unique_ptr<SceneData> stage(Frame& frame, int width, int height, const char* name,
+                                 const std::vector<std::string>& settings = {})
 {
-    std::optional<samples::PreparedStage> stage;
-};
-
-std::unique_ptr<SceneData> stage(Frame& frame, int width, int height, const char* name)
-{
-    auto data = std::make_unique<StageData>();
-    const auto found = samples::findStage(name);
-    if (!found) return data;
-    auto prepared = samples::PreparedStage::prepare(**found);
-    if (!prepared) return data;
+    auto data = std::make_unique<SceneData>();
+    auto prepared = samples::findStage(name).and_then(
+        [&](const samples::Stage* found) { return samples::PreparedStage::prepare(*found, settings); });
+    if (!prepared) {
+        data->problem = prepared.error().message;
+        return data;
+    }
     data->stage.emplace(std::move(*prepared));
+    const samples::Camera& camera = data->stage->camera();
     data->stage->record(frame, width, height);
+    data->clipFromWorld = clipFromWorld(camera, width, height);
+    data->stageScene.emplace(data->stage->scene(frame, width, height, camera));
     return data;
 }
 
 }  // namespace
+
+std::vector<samples::Object> SceneData::objects() const
+{
+    if (stage) return stage->inputs->objects;
+    return {{&mesh, worldFromObject}};
+}
 
 const std::vector<BenchScene>& benchScenes()
 {
@@ -244,6 +251,8 @@ const std::vector<BenchScene>& benchScenes()
         {"million_triangles", "a height field of 1,000,000 triangles, Lambert", millionTriangles},
         {"small_triangles", "20,000 triangles of some 10 pixels, in any order", smallTriangles},
         {"stage_1.09", "five fetches and GGX on a quad", [](Frame& f, int w, int h) { return stage(f, w, h, "1.09"); }},
+        {"stage_2.06", "a normal map under two lights, in two passes",
+         [](Frame& f, int w, int h) { return stage(f, w, h, "2.06"); }},
     };
     return scenes;
 }

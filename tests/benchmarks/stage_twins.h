@@ -1,0 +1,11 @@
+// Stages as Mesa draws them: their programs in GLSL, formula by formula, with the meshes, matrices, textures and
+// properties that their draw functions get.
+#pragma once
+
+#include "twins.h"
+
+namespace relief::benchmarks {
+
+Expected<MesaDrawing> twoLights(Mesa& mesa, const SceneData& data);  // 2.06
+
+}  // namespace relief::benchmarks
