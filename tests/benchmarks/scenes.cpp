@@ -251,6 +251,10 @@ const std::vector<BenchScene>& benchScenes()
         {"million_triangles", "a height field of 1,000,000 triangles, Lambert", millionTriangles},
         {"small_triangles", "20,000 triangles of some 10 pixels, in any order", smallTriangles},
         {"stage_1.09", "five fetches and GGX on a quad", [](Frame& f, int w, int h) { return stage(f, w, h, "1.09"); }},
+        {"stage_1.25", "four fetches and GGX on three objects, a pass for each of three lights",
+         [](Frame& f, int w, int h) {  // however this build's stages compute binormals
+             return stage(f, w, h, "1.25", {"binormalPerFragment=0"});
+         }},
         {"stage_2.06", "a normal map under two lights, in two passes",
          [](Frame& f, int w, int h) { return stage(f, w, h, "2.06"); }},
     };

@@ -6,6 +6,7 @@
 
 namespace relief::benchmarks {
 
+Expected<MesaDrawing> litScene(Mesa& mesa, const SceneData& data);   // 1.25
 Expected<MesaDrawing> twoLights(Mesa& mesa, const SceneData& data);  // 2.06
 
 }  // namespace relief::benchmarks

@@ -147,6 +147,7 @@ const std::vector<Twin>& twins()
         {"million_triangles", terrain},
         {"layers_32", layers},
         {"small_triangles", smallTriangles},
+        {"stage_1.25", litScene},
         {"stage_2.06", twoLights},
     };
     return all;
