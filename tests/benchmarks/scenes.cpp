@@ -257,6 +257,8 @@ const std::vector<BenchScene>& benchScenes()
          }},
         {"stage_2.06", "a normal map under two lights, in two passes",
          [](Frame& f, int w, int h) { return stage(f, w, h, "2.06"); }},
+        {"stage_4.07", "colours and normals from three sides, mixed",
+         [](Frame& f, int w, int h) { return stage(f, w, h, "4.07"); }},
     };
     return scenes;
 }

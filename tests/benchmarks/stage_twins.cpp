@@ -314,4 +314,73 @@ void main()
     };
 }
 
+// --- 4.07 Reoriented normal mapping ---
+
+Expected<MesaDrawing> reorientedNormals(Mesa& mesa, const SceneData& data)
+{
+    const Scene& scene = *data.stageScene;
+    const Expected<MesaProgram> program = mesa.makeProgram(kObjectTransform + R"glsl(
+out vec3 worldPos, worldNormal;
+void main()
+{
+    worldPos = (worldFromObject * vec4(position, 1.0)).xyz;
+    worldNormal = normalize(normalFromObject * normal);
+    gl_Position = flipped(clipFromObject * vec4(position, 1.0));
+}
+)glsl",
+                                                           kUnpackScaleNormal + R"glsl(
+layout(binding = 0) uniform sampler2D mainTex;
+layout(binding = 1) uniform sampler2D normalMap;
+uniform float tiling, bumpScale;
+uniform vec3 ambient, lightColor, lightDir;
+in vec3 worldPos, worldNormal;
+
+// Turns `bump` as (0, 0, 1) is turned to `surface`, whose z is not negative.
+vec3 reoriented(vec3 surface, vec3 bump)
+{
+    vec3 t = surface + vec3(0.0, 0.0, 1.0);
+    vec3 u = bump * vec3(-1.0, -1.0, 1.0);
+    return normalize(t * (dot(t, u) / t.z) - u);
+}
+
+void main()
+{
+    vec3 n = normalize(worldNormal);
+    vec3 place = worldPos * tiling;
+    vec2 uvX = place.zy, uvY = place.xz, uvZ = place.xy;
+    vec3 weights = max(abs(n) - 0.2, 0.0);
+    weights /= weights.x + weights.y + weights.z;
+
+    // All planes are fetched: in Mesa branches around the fetches cost more than they save.
+    vec3 albedo = tex2D(mainTex, uvX).rgb * weights.x + tex2D(mainTex, uvY).rgb * weights.y +
+                  tex2D(mainTex, uvZ).rgb * weights.z;
+    vec3 bumpX = unpackScaleNormal(tex2D(normalMap, uvX), bumpScale);
+    vec3 bumpY = unpackScaleNormal(tex2D(normalMap, uvY), bumpScale);
+    vec3 bumpZ = unpackScaleNormal(tex2D(normalMap, uvZ), bumpScale);
+
+    vec3 facing = abs(n), side = mix(vec3(1.0), vec3(-1.0), lessThan(n, vec3(0.0)));
+    bumpX = reoriented(vec3(n.zy, facing.x), bumpX);
+    bumpY = reoriented(vec3(n.xz, facing.y), bumpY);
+    bumpZ = reoriented(vec3(n.xy, facing.z), bumpZ);
+    bumpX.z *= side.x;
+    bumpY.z *= side.y;
+    bumpZ.z *= side.z;
+    vec3 bumped = normalize(bumpX.zyx * weights.x + bumpY.xzy * weights.y + bumpZ * weights.z);
+    result = vec4(albedo * (lightColor * clamp(dot(bumped, lightDir), 0.0, 1.0) + ambient), 1.0);
+}
+)glsl");
+    if (!program) return tl::unexpected(program.error());
+    for (const char* name : {"tiling", "bumpScale"}) program->set(name, scene.number(name));
+    program->set("ambient", scene.vector("ambient").xyz());
+    program->set("lightColor", scene.light.color);
+    program->set("lightDir", scene.light.dir);
+    const std::vector<MesaTexture> textures = {mesa.makeTexture(scene.mainTex), mesa.makeTexture(scene.normalMap)};
+    return [&mesa, &scene, textures, program = *program, objects = objectsOf(mesa, scene)] {
+        for (const MesaObject& o : objects) {
+            setObject(program, scene, o.object);
+            mesa.draw(program, o.mesh, {}, textures);
+        }
+    };
+}
+
 }  // namespace relief::benchmarks

@@ -6,7 +6,8 @@
 
 namespace relief::benchmarks {
 
-Expected<MesaDrawing> litScene(Mesa& mesa, const SceneData& data);   // 1.25
-Expected<MesaDrawing> twoLights(Mesa& mesa, const SceneData& data);  // 2.06
+Expected<MesaDrawing> litScene(Mesa& mesa, const SceneData& data);           // 1.25
+Expected<MesaDrawing> twoLights(Mesa& mesa, const SceneData& data);          // 2.06
+Expected<MesaDrawing> reorientedNormals(Mesa& mesa, const SceneData& data);  // 4.07
 
 }  // namespace relief::benchmarks

@@ -149,6 +149,7 @@ const std::vector<Twin>& twins()
         {"small_triangles", smallTriangles},
         {"stage_1.25", litScene},
         {"stage_2.06", twoLights},
+        {"stage_4.07", reorientedNormals},
     };
     return all;
 }
