@@ -13,7 +13,7 @@ Expected<void> loadOpenGl()
 {
     static void* const library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr) {
-        return fail("bench --peer: there is no libEGL.so.1; install libegl1, libgl1 and libgl1-mesa-dri");
+        return fail("bench --peer: there is no libEGL.so.1; install libegl1 and libgl1-mesa-dri");
     }
     using GetFunction = decltype(&::eglGetProcAddress);
     const auto getFunction = reinterpret_cast<GetFunction>(dlsym(library, "eglGetProcAddress"));
