@@ -458,6 +458,14 @@ TEST_CASE("command line: bench --peer draws the test scenes beside Mesa, or says
     for (const std::string& scene : scenes) {
         REQUIRE(std::getline(lines, line));
         CHECK(line.starts_with(scene));
+        // The last columns: pixels off edges that only one drew to, pixels of close colours, the largest difference.
+        CAPTURE(line);
+        std::stringstream columns(line);
+        std::vector<std::string> words;
+        for (std::string word; columns >> word;) words.push_back(word);
+        REQUIRE(words.size() > 3);
+        CHECK(words[words.size() - 3] == "0");
+        CHECK(std::strtod(words[words.size() - 2].c_str(), nullptr) >= 99.9);
         if (scene == "clear" || scene == "flat_quad" || scene == "layers_32")
             CHECK(line.ends_with("100.0000%       0"));
     }
