@@ -432,11 +432,14 @@ TEST_CASE("command line: bench --peer draws the test scenes beside Mesa, or says
     checkRefused(folder.path, "bench --peer mesa --benchmark_filter=x", {"benchmark_filter"});
     checkRefused(folder.path, "bench --pairs 3", {"--pairs", "--peer"});
     checkRefused(folder.path, "bench --scene clear", {"--scene", "--peer"});
+    checkRefused(folder.path, "bench --alone mesa", {"--peer"});
+    checkRefused(folder.path, "bench --peer mesa --alone nobody", {"nobody"});
 
-    std::vector<std::string> scenes = {"clear",     "flat_quad",       "trilinear_plane",  "anisotropic_plane",
-                                       "layers_32", "small_triangles", "million_triangles"};
-#if defined(RELIEF_SHORT_TESTS)
-    scenes.pop_back();
+    std::vector<std::string> scenes = {"clear",     "flat_quad",       "trilinear_plane", "anisotropic_plane",
+                                       "layers_32", "small_triangles", "stage_1.25",      "stage_2.06",
+                                       "stage_4.07"};
+#if !defined(RELIEF_SHORT_TESTS)
+    scenes.insert(scenes.end(), {"million_triangles", "first_frame"});
 #endif
     std::string arguments = "bench --peer mesa --size 64x36 --pairs 1";
     for (const std::string& scene : scenes) arguments += " --scene " + scene;
@@ -455,9 +458,21 @@ TEST_CASE("command line: bench --peer draws the test scenes beside Mesa, or says
     for (const std::string& scene : scenes) {
         REQUIRE(std::getline(lines, line));
         CHECK(line.starts_with(scene));
+        // The last columns: pixels off edges that only one drew to, pixels of close colours, the largest difference.
+        CAPTURE(line);
+        std::stringstream columns(line);
+        std::vector<std::string> words;
+        for (std::string word; columns >> word;) words.push_back(word);
+        REQUIRE(words.size() > 3);
+        CHECK(words[words.size() - 3] == "0");
+        CHECK(std::strtod(words[words.size() - 2].c_str(), nullptr) >= 99.9);
         if (scene == "clear" || scene == "flat_quad" || scene == "layers_32")
-            CHECK(line.ends_with("100.0000%        0"));
+            CHECK(line.ends_with("100.0000%       0"));
     }
+    CHECK((std::getline(lines, line) && line.starts_with("coverage:")));
+#if !defined(RELIEF_SHORT_TESTS)
+    CHECK((std::getline(lines, line) && line.starts_with("first_frame: stage_1.25 at 256x256")));
+#endif
     CHECK((std::getline(lines, line) && line.find("llvmpipe") != std::string::npos));
     CHECK_FALSE(std::getline(lines, line));
 
@@ -465,6 +480,12 @@ TEST_CASE("command line: bench --peer draws the test scenes beside Mesa, or says
     CHECK(one.code == 0);
     CHECK(one.out.find("threads: 1,") != std::string::npos);
     CHECK(one.out.find("flat_quad") == std::string::npos);
+    for (const std::string who : {"relief", "mesa"}) {
+        const std::string alone = "bench --peer mesa --size 64x36 --alone " + who;
+        CHECK(run(folder.path, alone + " --scene stage_1.25").out == "drawn\n");
+        checkRefused(folder.path, alone + " --scene stage_1.25", {"/nowhere"}, "RELIEF_ASSETS=/nowhere");
+    }
+    checkRefused(folder.path, "bench --peer mesa --scene stage_4.07", {"/nowhere"}, "RELIEF_ASSETS=/nowhere");
     checkRefused(folder.path, "bench --peer mesa --scene nowhere", {"nowhere", "flat_quad"});
     checkRefused(folder.path, "bench --peer mesa --threads 17", {"--threads", "16"});
     checkRefused(folder.path, "bench --peer mesa --size big", {"big"});

@@ -45,6 +45,7 @@ struct PeerOptions
     std::vector<std::string> scenes;  // by name; none: all
     std::string size = "1920x1080";
     int threads = 0, pairs = 9;
+    std::string alone;  // "relief" or "mesa": that one draws one frame of a scene, and nothing is measured
 };
 
 // "WIDTHxHEIGHT", 1 to 16384 each.

@@ -79,7 +79,8 @@ void addBenchOptions(CLI::App& command, BenchOptions& options, PeerOptions& peer
         command
             .add_option("--peer", peerOptions.peer,
                         "Draws the test scenes in turn with another rasterizer, mesa (its llvmpipe), and says how much "
-                        "faster Relief is; takes --size (1920x1080 unless told otherwise) and --threads (all)")
+                        "faster Relief is and how far the pictures agree; takes --size (1920x1080 unless told "
+                        "otherwise) and --threads (all)")
             ->check(CLI::IsMember({"mesa"}))
             ->excludes(stage);
     command.add_option("--scene", peerOptions.scenes, "With --peer: one of the test scenes alone; may be repeated")
@@ -89,6 +90,10 @@ void addBenchOptions(CLI::App& command, BenchOptions& options, PeerOptions& peer
         ->check(CLI::Range(1, 100000))
         ->capture_default_str()
         ->needs(peer);
+    command.add_option("--alone", peerOptions.alone, "What first_frame starts: draws one frame of a scene")
+        ->check(CLI::IsMember({"relief", "mesa"}))
+        ->needs(peer)
+        ->group("");
 }
 
 // The first option given that is none of `known`; empty if there is none.
@@ -109,7 +114,8 @@ Expected<void> benchWith(const CLI::App& command, const BenchOptions& options, P
         return fail(what + ": unknown option " + others[0] + "; see `relief bench --help`");
     };
     if (!peerOptions.peer.empty()) {
-        const std::string other = otherOption(command, {"--peer", "--scene", "--pairs", "--size", "--threads"});
+        const std::string other =
+            otherOption(command, {"--peer", "--scene", "--pairs", "--alone", "--size", "--threads"});
         if (!others.empty()) return unknown("bench --peer");
         if (!other.empty()) return fail(other + ": bench --peer does not take it; see `relief bench --help`");
         if (command.count("--size") > 0) peerOptions.size = options.render.size;

@@ -88,9 +88,14 @@ void PreparedStage::record(Frame& frame, int width, int height, const Camera& ca
     frame.reset();
     frame.clear(kBackground);
     log->clear();
-    const Scene scene(frame, *log, width, height, camera, *inputs, properties);
-    stage->draw(scene);
-    if (tangentLines) scene.showTangents(*tangentLines);
+    const Scene drawn = scene(frame, width, height, camera);
+    stage->draw(drawn);
+    if (tangentLines) drawn.showTangents(*tangentLines);
+}
+
+Scene PreparedStage::scene(Frame& frame, int width, int height, const Camera& camera) const
+{
+    return Scene(frame, *log, width, height, camera, *inputs, properties);
 }
 
 std::uint64_t hashOf(const Framebuffer& target)

@@ -26,6 +26,9 @@ public:
     void record(Frame& frame, int width, int height) const { record(frame, width, height, camera()); }
     void record(Frame& frame, int width, int height, const Camera& camera) const;
 
+    // What the stage's draw function gets.
+    Scene scene(Frame& frame, int width, int height, const Camera& camera) const;
+
     // The user's, or the stage's, or one that looks at a mesh of the user's from the front.
     const Camera& camera() const;
 

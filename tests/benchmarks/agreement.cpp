@@ -27,15 +27,19 @@ double distanceToLine(glm::dvec2 point, glm::dvec2 a, glm::dvec2 b)
 
 bool isNearEdge(const SceneData& scene, glm::dvec2 size, glm::dvec2 pixelCentre)
 {
-    const glm::dmat4 clipFromObject = scene.clipFromWorld * scene.worldFromObject;
-    const Mesh& mesh = scene.mesh;
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-        const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
-        const auto a = onScreen(clipFromObject, mesh.positions[mesh.indices[i]], size);
-        const auto b = onScreen(clipFromObject, mesh.positions[mesh.indices[next]], size);
-        if (a && b && distanceToLine(pixelCentre, *a, *b) <= 1.0 / 256.0) return true;
-    }
-    return false;
+    const auto isNear = [&](const samples::Object& object) {
+        const glm::dmat4 clipFromObject = scene.clipFromWorld * object.worldFromObject;
+        const Mesh& mesh = *object.mesh;
+        for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+            const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+            const auto a = onScreen(clipFromObject, mesh.positions[mesh.indices[i]], size);
+            const auto b = onScreen(clipFromObject, mesh.positions[mesh.indices[next]], size);
+            if (a && b && distanceToLine(pixelCentre, *a, *b) <= 1.0 / 256.0) return true;
+        }
+        return false;
+    };
+    const std::vector<samples::Object> objects = scene.objects();
+    return std::any_of(objects.begin(), objects.end(), isNear);
 }
 
 }  // namespace

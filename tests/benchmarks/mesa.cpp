@@ -2,9 +2,7 @@
 
 #include <cstdio>
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-#include <GL/glcorearb.h>
+#include "opengl.h"
 
 namespace relief::benchmarks {
 
@@ -14,6 +12,7 @@ const char* const kVertexHead = R"glsl(#version 450 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 tangent;
 vec4 flipped(vec4 clip) { return vec4(clip.x, -clip.y, clip.zw); }
 )glsl";
 
@@ -37,21 +36,21 @@ vec4 tex2D(sampler2D s, vec2 uv)
 
 std::string text(GLenum name)
 {
-    const GLubyte* const found = glGetString(name);
+    const GLubyte* const found = gl.GetString(name);
     return found == nullptr ? "" : reinterpret_cast<const char*>(found);
 }
 
 Expected<unsigned> compile(GLenum kind, const std::string& source)
 {
-    const GLuint shader = glCreateShader(kind);
+    const GLuint shader = gl.CreateShader(kind);
     const char* const begin = source.c_str();
-    glShaderSource(shader, 1, &begin, nullptr);
-    glCompileShader(shader);
+    gl.ShaderSource(shader, 1, &begin, nullptr);
+    gl.CompileShader(shader);
     GLint compiled = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     if (compiled != 0) return shader;
     char log[512] = "";
-    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+    gl.GetShaderInfoLog(shader, sizeof log, nullptr, log);
     std::string line = log;
     for (char& c : line) c = c == '\n' ? ' ' : c;
     return fail("bench --peer: Mesa refuses a program: " + line);
@@ -61,8 +60,8 @@ template <class Element>
 GLuint makeBuffer(const std::vector<Element>& elements)
 {
     GLuint buffer = 0;
-    glCreateBuffers(1, &buffer);
-    glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(elements.size() * sizeof(Element)), elements.data(), 0);
+    gl.CreateBuffers(1, &buffer);
+    gl.NamedBufferStorage(buffer, static_cast<GLsizeiptr>(elements.size() * sizeof(Element)), elements.data(), 0);
     return buffer;
 }
 
@@ -71,10 +70,10 @@ template <class Element>
 void addAttribute(GLuint vertexArray, GLuint location, GLint components, const std::vector<Element>& elements)
 {
     if (elements.empty()) return;
-    glVertexArrayVertexBuffer(vertexArray, location, makeBuffer(elements), 0, sizeof(Element));
-    glVertexArrayAttribFormat(vertexArray, location, components, GL_FLOAT, GL_FALSE, 0);
-    glVertexArrayAttribBinding(vertexArray, location, location);
-    glEnableVertexArrayAttrib(vertexArray, location);
+    gl.VertexArrayVertexBuffer(vertexArray, location, makeBuffer(elements), 0, sizeof(Element));
+    gl.VertexArrayAttribFormat(vertexArray, location, components, GL_FLOAT, GL_FALSE, 0);
+    gl.VertexArrayAttribBinding(vertexArray, location, location);
+    gl.EnableVertexArrayAttrib(vertexArray, location);
 }
 
 }  // namespace
@@ -94,26 +93,28 @@ struct Mesa::Context
     ~Context()
     {
         if (display == EGL_NO_DISPLAY) return;
-        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-        eglTerminate(display);
+        egl.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (context != EGL_NO_CONTEXT) egl.DestroyContext(display, context);
+        egl.Terminate(display);
     }
 
     bool open()
     {
-        display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        display = egl.GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
         if (display == EGL_NO_DISPLAY) return false;
-        if (!eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API)) return false;
+        if (!egl.Initialize(display, nullptr, nullptr) || !egl.BindAPI(EGL_OPENGL_API)) return false;
         const EGLint attributes[] = {
             EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-        context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-        return context != EGL_NO_CONTEXT && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
+        context = egl.CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+        return context != EGL_NO_CONTEXT && egl.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
     }
 };
 
 Expected<Mesa> Mesa::create(int width, int height, LevelOfDetail levelOfDetail)
 {
+    const Expected<void> loaded = loadOpenGl();
+    if (!loaded) return tl::unexpected(loaded.error());
     const auto context = std::make_shared<Context>();
     if (!context->open()) {
         return fail("bench --peer: Mesa's llvmpipe gives no OpenGL 4.5 context; install libgl1-mesa-dri");
@@ -127,23 +128,22 @@ Expected<Mesa> Mesa::create(int width, int height, LevelOfDetail levelOfDetail)
     context->levelOfDetail = levelOfDetail;
 
     GLuint target = 0, buffers[2] = {0, 0};
-    glCreateFramebuffers(1, &target);
-    glCreateRenderbuffers(2, buffers);
-    glNamedRenderbufferStorage(buffers[0], GL_RGBA8, width, height);
-    glNamedRenderbufferStorage(buffers[1], GL_DEPTH_COMPONENT32F, width, height);
-    glNamedFramebufferRenderbuffer(target, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
-    glNamedFramebufferRenderbuffer(target, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
-    if (glCheckNamedFramebufferStatus(target, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    gl.CreateFramebuffers(1, &target);
+    gl.CreateRenderbuffers(2, buffers);
+    gl.NamedRenderbufferStorage(buffers[0], GL_RGBA8, width, height);
+    gl.NamedRenderbufferStorage(buffers[1], GL_DEPTH_COMPONENT32F, width, height);
+    gl.NamedFramebufferRenderbuffer(target, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
+    gl.NamedFramebufferRenderbuffer(target, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
+    if (gl.CheckNamedFramebufferStatus(target, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         return fail("bench --peer: Mesa refuses a target of " + std::to_string(width) + "x" + std::to_string(height) +
                     "; choose a smaller --size");
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, target);
-    glViewport(0, 0, width, height);
-    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glFrontFace(GL_CCW);  // in OpenGL's eyes, which see the picture upside down: clockwise
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    glDisable(GL_DITHER);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target);
+    gl.Viewport(0, 0, width, height);
+    gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    gl.FrontFace(GL_CCW);  // in OpenGL's eyes, which see the picture upside down: clockwise
+    gl.Enable(GL_DEPTH_TEST);
+    gl.Disable(GL_DITHER);
     return Mesa(context);
 }
 
@@ -156,23 +156,31 @@ std::string Mesa::description() const
 
 void MesaProgram::set(const char* uniform, float value) const
 {
-    glProgramUniform1f(name, glGetUniformLocation(name, uniform), value);
+    gl.ProgramUniform1f(name, gl.GetUniformLocation(name, uniform), value);
 }
 void MesaProgram::set(const char* uniform, const glm::vec3& value) const
 {
-    glProgramUniform3fv(name, glGetUniformLocation(name, uniform), 1, &value[0]);
+    gl.ProgramUniform3fv(name, gl.GetUniformLocation(name, uniform), 1, &value[0]);
 }
 void MesaProgram::set(const char* uniform, const glm::vec4& value) const
 {
-    glProgramUniform4fv(name, glGetUniformLocation(name, uniform), 1, &value[0]);
+    gl.ProgramUniform4fv(name, gl.GetUniformLocation(name, uniform), 1, &value[0]);
+}
+void MesaProgram::set(const char* uniform, const float3& value) const
+{
+    set(uniform, glm::vec3(value.x[0], value.y[0], value.z[0]));
+}
+void MesaProgram::set(const char* uniform, const float4& value) const
+{
+    set(uniform, glm::vec4(value.x[0], value.y[0], value.z[0], value.w[0]));
 }
 void MesaProgram::set(const char* uniform, const glm::mat3& value) const
 {
-    glProgramUniformMatrix3fv(name, glGetUniformLocation(name, uniform), 1, GL_FALSE, &value[0][0]);
+    gl.ProgramUniformMatrix3fv(name, gl.GetUniformLocation(name, uniform), 1, GL_FALSE, &value[0][0]);
 }
 void MesaProgram::set(const char* uniform, const glm::mat4& value) const
 {
-    glProgramUniformMatrix4fv(name, glGetUniformLocation(name, uniform), 1, GL_FALSE, &value[0][0]);
+    gl.ProgramUniformMatrix4fv(name, gl.GetUniformLocation(name, uniform), 1, GL_FALSE, &value[0][0]);
 }
 
 Expected<MesaProgram> Mesa::makeProgram(const std::string& vertexProgram, const std::string& fragmentProgram)
@@ -182,12 +190,12 @@ Expected<MesaProgram> Mesa::makeProgram(const std::string& vertexProgram, const 
     const std::string tex2D = context->levelOfDetail == LevelOfDetail::exact ? kExactLevel : kMesasLevel;
     const Expected<unsigned> fragment = compile(GL_FRAGMENT_SHADER, kFragmentHead + tex2D + fragmentProgram);
     if (!fragment) return tl::unexpected(fragment.error());
-    const GLuint program = glCreateProgram();
-    glAttachShader(program, *vertex);
-    glAttachShader(program, *fragment);
-    glLinkProgram(program);
+    const GLuint program = gl.CreateProgram();
+    gl.AttachShader(program, *vertex);
+    gl.AttachShader(program, *fragment);
+    gl.LinkProgram(program);
     GLint linked = 0;
-    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
     if (linked == 0) return fail("bench --peer: Mesa does not link a vertex program with its fragment program");
     return MesaProgram{program};
 }
@@ -195,29 +203,45 @@ Expected<MesaProgram> Mesa::makeProgram(const std::string& vertexProgram, const 
 MesaMesh Mesa::makeMesh(const Mesh& mesh)
 {
     GLuint vertexArray = 0;
-    glCreateVertexArrays(1, &vertexArray);
+    gl.CreateVertexArrays(1, &vertexArray);
     addAttribute(vertexArray, 0, 3, mesh.positions);
     addAttribute(vertexArray, 1, 3, mesh.normals);
     addAttribute(vertexArray, 2, 2, mesh.uvs);
-    glVertexArrayElementBuffer(vertexArray, makeBuffer(mesh.indices));
+    addAttribute(vertexArray, 3, 4, mesh.tangents);
+    gl.VertexArrayElementBuffer(vertexArray, makeBuffer(mesh.indices));
     return {vertexArray, static_cast<int>(mesh.indices.size())};
 }
 
-MesaTexture Mesa::makeTexture(const Texture& texture)
+MesaTexture Mesa::makeTexture(const sampler2D& sampler)
 {
+    struct Format
+    {
+        GLenum inMemory, channel;
+    };
+    const Format formats[] = {{GL_RGBA8, GL_UNSIGNED_BYTE}, {GL_RGBA16, GL_UNSIGNED_SHORT}, {GL_RGBA32F, GL_FLOAT}};
+    const GLint smaller[] = {GL_NEAREST_MIPMAP_NEAREST, GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR_MIPMAP_LINEAR};
+    const GLint addresses[] = {GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_BORDER};
+    const Texture& texture = sampler.texture ? *sampler.texture : Texture::white();
+    const Format format = formats[static_cast<int>(texture.format())];
+    const int levels = sampler.mipmaps ? texture.levelCount() : 1;
+
     GLuint name = 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &name);
-    glTextureStorage2D(name, texture.levelCount(), GL_RGBA8, texture.width(), texture.height());
-    for (int k = 0; k < texture.levelCount(); ++k) {
+    gl.CreateTextures(GL_TEXTURE_2D, 1, &name);
+    gl.TextureStorage2D(name, levels, format.inMemory, texture.width(), texture.height());
+    for (int k = 0; k < levels; ++k) {
         const MipLevel& level = texture.level(k);
-        glPixelStorei(GL_UNPACK_ROW_LENGTH, level.rowTexels());
-        glTextureSubImage2D(name, k, 0, 0, level.width(), level.height(), GL_RGBA, GL_UNSIGNED_BYTE,
-                            level.texel<std::uint8_t>(0, 0));
+        const std::size_t first = (static_cast<std::size_t>(level.rowTexels()) + 1) *
+                                  static_cast<std::size_t>(bytesPerTexel(texture.format()));  // after the frame
+        gl.PixelStorei(GL_UNPACK_ROW_LENGTH, level.rowTexels());
+        gl.TextureSubImage2D(name, k, 0, 0, level.width(), level.height(), GL_RGBA, format.channel,
+                             level.texels() + first);
     }
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    const bool nearest = sampler.filter == Filter::nearest;
+    gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, smaller[static_cast<int>(sampler.filter)]);
+    gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+    gl.TextureParameteri(name, GL_TEXTURE_WRAP_S, addresses[static_cast<int>(sampler.u)]);
+    gl.TextureParameteri(name, GL_TEXTURE_WRAP_T, addresses[static_cast<int>(sampler.v)]);
+    gl.TextureParameterfv(name, GL_TEXTURE_BORDER_COLOR, &sampler.borderColor[0]);
     return {name};
 }
 
@@ -225,36 +249,41 @@ MesaTexture Mesa::makeTexture(const Texture& texture)
 
 void Mesa::clear(const glm::vec4& color)
 {
-    glClearColor(color.r, color.g, color.b, color.a);
-    glClearDepthf(1.0f);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl.DepthMask(GL_TRUE);
+    gl.ClearColor(color.r, color.g, color.b, color.a);
+    gl.ClearDepthf(1.0f);
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void Mesa::draw(const MesaProgram& program, const MesaMesh& mesh, MesaCull cull)
+void Mesa::draw(const MesaProgram& program, const MesaMesh& mesh, const RenderState& state,
+                const std::vector<MesaTexture>& textures)
 {
-    (cull == MesaCull::back ? glEnable : glDisable)(GL_CULL_FACE);
-    glUseProgram(program.name);
-    glBindVertexArray(mesh.vertexArray);
-    glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
-}
-
-void Mesa::draw(const MesaProgram& program, const MesaMesh& mesh, MesaCull cull, const MesaTexture& texture)
-{
-    glBindTextureUnit(0, texture.name);
-    draw(program, mesh, cull);
+    gl.DepthFunc(GL_NEVER + static_cast<GLenum>(state.depthTest));  // both count in Direct3D's order
+    gl.DepthMask(state.depthWrite ? GL_TRUE : GL_FALSE);
+    (state.cull == Cull::none ? gl.Disable : gl.Enable)(GL_CULL_FACE);
+    gl.CullFace(state.cull == Cull::front ? GL_FRONT : GL_BACK);
+    (state.blend == Blend::off ? gl.Disable : gl.Enable)(GL_BLEND);
+    if (state.blend == Blend::additive) gl.BlendFunc(GL_ONE, GL_ONE);
+    if (state.blend == Blend::alpha) gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+        gl.BindTextureUnit(static_cast<GLuint>(i), textures[i].name);
+    }
+    gl.UseProgram(program.name);
+    gl.BindVertexArray(mesh.vertexArray);
+    gl.DrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
 }
 
 void Mesa::finish()
 {
-    glFinish();
+    gl.Finish();
 }
 
 Expected<std::vector<std::uint32_t>> Mesa::pixels()
 {
     std::vector<std::uint32_t> pixels(static_cast<std::size_t>(context->width) *
                                       static_cast<std::size_t>(context->height));
-    glReadPixels(0, 0, context->width, context->height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-    const GLenum error = glGetError();
+    gl.ReadPixels(0, 0, context->width, context->height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    const GLenum error = gl.GetError();
     if (error == GL_NO_ERROR) return pixels;
     char code[16];
     std::snprintf(code, sizeof code, "0x%04x", error);

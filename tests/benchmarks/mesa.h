@@ -13,8 +13,10 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "hlsl/types.h"
 #include "mesh/mesh.h"
-#include "texture/texture.h"
+#include "pipeline/render_state.h"
+#include "texture/sampler.h"
 
 namespace relief::benchmarks {
 
@@ -28,6 +30,11 @@ struct MesaProgram
     void set(const char* uniform, const glm::vec4& value) const;
     void set(const char* uniform, const glm::mat3& value) const;
     void set(const char* uniform, const glm::mat4& value) const;
+
+    // The first lane.
+    void set(const char* uniform, Float value) const { set(uniform, value[0]); }
+    void set(const char* uniform, const float3& value) const;
+    void set(const char* uniform, const float4& value) const;
 };
 
 struct MesaMesh
@@ -39,12 +46,6 @@ struct MesaMesh
 struct MesaTexture
 {
     unsigned name;
-};
-
-enum class MesaCull
-{
-    none,
-    back
 };
 
 // How tex2D in fragment programs finds the level of detail. Mesa's own takes a straight line between powers of two for
@@ -64,17 +65,20 @@ public:
     // What Mesa calls itself: renderer and version.
     std::string description() const;
 
-    // From GLSL without #version. Vertex programs find `position` at location 0, `normal` at 1 and `uv` at 2, and give
-    // flipped(clip position) to gl_Position. Fragment programs have tex2D(sampler, uv), and give `result`.
+    // From GLSL without #version. Vertex programs find `position` at location 0, `normal` at 1, `uv` at 2 and `tangent`
+    // at 3, and give flipped(clip position) to gl_Position. Fragment programs have tex2D(sampler, uv), and give
+    // `result`.
     Expected<MesaProgram> makeProgram(const std::string& vertexProgram, const std::string& fragmentProgram);
     MesaMesh makeMesh(const Mesh& mesh);
-    // The texture's own levels, repeated, with the trilinear filter. RGBA8 only.
-    MesaTexture makeTexture(const Texture& texture);
+    // The texture's own levels, as the sampler reads them but for its limits and bias. Mesa's anisotropic filter is
+    // another one, and off.
+    MesaTexture makeTexture(const sampler2D& sampler);
 
-    // Depth to 1. The depth test is `less`, and writes.
+    // Depth to 1.
     void clear(const glm::vec4& color);
-    void draw(const MesaProgram& program, const MesaMesh& mesh, MesaCull cull);
-    void draw(const MesaProgram& program, const MesaMesh& mesh, MesaCull cull, const MesaTexture& texture);
+    // Triangles. The textures are those of bindings 0, 1, ...
+    void draw(const MesaProgram& program, const MesaMesh& mesh, const RenderState& state,
+              const std::vector<MesaTexture>& textures = {});
     void finish();
 
     // Waits for the picture: R, G, B, A from the lowest byte up, row 0 on top. An error if OpenGL reported one.

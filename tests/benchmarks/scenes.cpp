@@ -156,10 +156,29 @@ glm::mat4 clipFromWorld(const samples::Camera& camera, int width, int height)
            samples::viewFromWorld(camera);
 }
 
+// makeQuad() in cells x cells pieces. Where uv spans many repetitions its last bits are worth a good part of a texel,
+// and two rasterizers' derivatives differ by as much; within a piece it spans few.
+Mesh makeGrid(std::uint32_t cells)
+{
+    Mesh mesh;
+    for (std::uint32_t y = 0; y <= cells; ++y) {
+        for (std::uint32_t x = 0; x <= cells; ++x) {
+            const glm::vec2 uv = glm::vec2(x, y) / static_cast<float>(cells);
+            mesh.positions.emplace_back(uv - 0.5f, 0.0f);
+            mesh.normals.emplace_back(0.0f, 0.0f, -1.0f);
+            mesh.uvs.push_back(uv);
+            if (x == cells || y == cells) continue;
+            const std::uint32_t corner = y * (cells + 1) + x, above = corner + cells + 1;
+            mesh.indices.insert(mesh.indices.end(), {corner, above, above + 1, corner, above + 1, corner + 1});
+        }
+    }
+    return mesh;
+}
+
 std::unique_ptr<SceneData> plane(Frame& frame, int width, int height, int maxAnisotropy)
 {
     auto data = std::make_unique<SceneData>();
-    data->mesh = makeQuad();
+    data->mesh = makeGrid(16);
     data->texture.emplace(testTexture());
     data->maxAnisotropy = maxAnisotropy;
     data->tiling = 400.0f;
@@ -212,24 +231,31 @@ std::unique_ptr<SceneData> smallTriangles(Frame& frame, int width, int height)
     return data;
 }
 
-struct StageData final : SceneData
+std::unique_ptr<SceneData> stage(Frame& frame, int width, int height, const char* name,
+                                 const std::vector<std::string>& settings = {})
 {
-    std::optional<samples::PreparedStage> stage;
-};
-
-std::unique_ptr<SceneData> stage(Frame& frame, int width, int height, const char* name)
-{
-    auto data = std::make_unique<StageData>();
-    const auto found = samples::findStage(name);
-    if (!found) return data;
-    auto prepared = samples::PreparedStage::prepare(**found);
-    if (!prepared) return data;
+    auto data = std::make_unique<SceneData>();
+    auto prepared = samples::findStage(name).and_then(
+        [&](const samples::Stage* found) { return samples::PreparedStage::prepare(*found, settings); });
+    if (!prepared) {
+        data->problem = prepared.error().message;
+        return data;
+    }
     data->stage.emplace(std::move(*prepared));
+    const samples::Camera& camera = data->stage->camera();
     data->stage->record(frame, width, height);
+    data->clipFromWorld = clipFromWorld(camera, width, height);
+    data->stageScene.emplace(data->stage->scene(frame, width, height, camera));
     return data;
 }
 
 }  // namespace
+
+std::vector<samples::Object> SceneData::objects() const
+{
+    if (stage) return stage->inputs->objects;
+    return {{&mesh, worldFromObject}};
+}
 
 const std::vector<BenchScene>& benchScenes()
 {
@@ -244,6 +270,14 @@ const std::vector<BenchScene>& benchScenes()
         {"million_triangles", "a height field of 1,000,000 triangles, Lambert", millionTriangles},
         {"small_triangles", "20,000 triangles of some 10 pixels, in any order", smallTriangles},
         {"stage_1.09", "five fetches and GGX on a quad", [](Frame& f, int w, int h) { return stage(f, w, h, "1.09"); }},
+        {"stage_1.25", "four fetches and GGX on three objects, a pass for each of three lights",
+         [](Frame& f, int w, int h) {  // however this build's stages compute binormals
+             return stage(f, w, h, "1.25", {"binormalPerFragment=0"});
+         }},
+        {"stage_2.06", "a normal map under two lights, in two passes",
+         [](Frame& f, int w, int h) { return stage(f, w, h, "2.06"); }},
+        {"stage_4.07", "colours and normals from three sides, mixed",
+         [](Frame& f, int w, int h) { return stage(f, w, h, "4.07"); }},
     };
     return scenes;
 }

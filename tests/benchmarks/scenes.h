@@ -9,6 +9,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "common/render.h"
 #include "pipeline/frame.h"
 #include "texture/texture.h"
 
@@ -24,8 +25,6 @@ struct Layer
 // What a scene's draws are made of, kept alive while frames run. Another rasterizer draws the same from it (twins.h).
 struct SceneData
 {
-    virtual ~SceneData() = default;
-
     Mesh mesh;
     std::optional<Texture> texture;
     int maxAnisotropy = 1;
@@ -33,6 +32,16 @@ struct SceneData
     glm::mat4 clipFromWorld{1.0f}, worldFromObject{1.0f};
     glm::vec3 lightDir{0.0f}, color{0.0f};
     std::vector<Layer> layers;
+
+    // Of a stage, in place of all this: its inputs, and what its draw function gets.
+    std::optional<samples::PreparedStage> stage;
+    std::optional<samples::Scene> stageScene;
+
+    // Why there is nothing to draw, where files are missing; empty elsewhere.
+    std::string problem;
+
+    // What is drawn, and where it stands in the world; once, however many passes there are.
+    std::vector<samples::Object> objects() const;
 };
 
 struct BenchScene

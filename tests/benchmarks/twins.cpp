@@ -1,6 +1,7 @@
 #include "twins.h"
 
 #include "shading/object_transform.h"
+#include "stage_twins.h"
 
 namespace relief::benchmarks {
 
@@ -26,7 +27,7 @@ void main() { result = color; }
         for (const Layer& layer : data.layers) {
             program.set("depth", layer.depth);
             program.set("color", layer.color);
-            mesa.draw(program, mesh, MesaCull::none);
+            mesa.draw(program, mesh, {.cull = Cull::none});
         }
     };
 }
@@ -48,9 +49,8 @@ void main()
     program->set("clipFromObject", data.clipFromWorld * data.worldFromObject);
     program->set("tiling", data.tiling);
     program->set("maxAnisotropy", static_cast<float>(data.maxAnisotropy));
-    return [&mesa, program = *program, mesh = mesa.makeMesh(data.mesh), texture = mesa.makeTexture(*data.texture)] {
-        mesa.draw(program, mesh, MesaCull::back, texture);
-    };
+    return [&mesa, program = *program, mesh = mesa.makeMesh(data.mesh),
+            texture = mesa.makeTexture({.texture = &*data.texture})] { mesa.draw(program, mesh, {}, {texture}); };
 }
 
 Expected<MesaDrawing> trilinearPlane(Mesa& mesa, const SceneData& data)
@@ -112,7 +112,7 @@ void main() { result = vec4(color * clamp(dot(normalize(worldNormal), lightDir),
     program->set("normalFromObject", normalMatrix(glm::mat3(data.worldFromObject)));
     program->set("lightDir", data.lightDir);
     program->set("color", data.color);
-    return [&mesa, program = *program, mesh = mesa.makeMesh(data.mesh)] { mesa.draw(program, mesh, MesaCull::back); };
+    return [&mesa, program = *program, mesh = mesa.makeMesh(data.mesh)] { mesa.draw(program, mesh, {}); };
 }
 
 Expected<MesaDrawing> smallTriangles(Mesa& mesa, const SceneData& data)
@@ -130,7 +130,9 @@ in vec2 color;
 void main() { result = vec4(color, 0.5, 1.0); }
 )glsl");
     if (!program) return tl::unexpected(program.error());
-    return [&mesa, program = *program, mesh = mesa.makeMesh(data.mesh)] { mesa.draw(program, mesh, MesaCull::none); };
+    return [&mesa, program = *program, mesh = mesa.makeMesh(data.mesh)] {
+        mesa.draw(program, mesh, {.cull = Cull::none});
+    };
 }
 
 }  // namespace
@@ -145,6 +147,9 @@ const std::vector<Twin>& twins()
         {"million_triangles", terrain},
         {"layers_32", layers},
         {"small_triangles", smallTriangles},
+        {"stage_1.25", litScene},
+        {"stage_2.06", twoLights},
+        {"stage_4.07", reorientedNormals},
     };
     return all;
 }

@@ -1,5 +1,5 @@
 // The benchmark scenes as Mesa draws them: the meshes, textures, matrices and colours of scenes.h, with GLSL programs
-// of the same formulae.
+// of the same formulae. Those of stages are in stage_twins.cpp.
 #pragma once
 
 #include <functional>
