@@ -153,6 +153,24 @@ Float distance(const FloatN<size>& a, const FloatN<size>& b)
     return length(FloatN<size>(a - b));
 }
 
+namespace detail {
+
+// normalize() where a square leaves the range of floats. A function of its own, because it hardly ever runs.
+template <int size>
+[[gnu::noinline, gnu::cold]] FloatN<size> normalizeScaled(FloatN<size> v, Mask ordinary)
+{
+    Float largest = abs(v[0]);
+    for (int i = 1; i < size; ++i) largest = max(largest, abs(v[i]));
+    const Mask subnormal = largest < 1.17549435e-38f;
+    const Float lift = select(subnormal, Float(16777216.0f), Float(1.0f));
+    const FloatN<size> scaled = v * lift / select(ordinary, Float(1.0f), largest * lift);
+    const Float scaledSquare = dot(scaled, scaled);
+    const Mask finite = (scaledSquare > 0.0f) & (scaledSquare <= std::numeric_limits<float>::max());
+    return select(finite, scaled * (1.0f / sqrt(scaledSquare)), FloatN<size>(Float(0.0f)));
+}
+
+}  // namespace detail
+
 // The vector of length 1 in the same direction. The zero vector, and one with a NaN or an infinity in it, becomes the
 // zero vector: what HLSL leaves undefined must not become a NaN in a picture. Any other length works, down to the
 // smallest subnormal number: where the square would leave the range of floats, the vector is scaled first.
@@ -163,15 +181,7 @@ FloatN<size> normalize(const FloatN<size>& v)
     const Mask ordinary = (square > 1e-30f) & (square < 1e30f);
     if (all(ordinary)) [[likely]]
         return v * (1.0f / sqrt(square));
-
-    Float largest = abs(v[0]);
-    for (int i = 1; i < size; ++i) largest = max(largest, abs(v[i]));
-    const Mask subnormal = largest < 1.17549435e-38f;
-    const Float lift = select(subnormal, Float(16777216.0f), Float(1.0f));
-    const FloatN<size> scaled = v * lift / select(ordinary, Float(1.0f), largest * lift);
-    const Float scaledSquare = dot(scaled, scaled);
-    const Mask finite = (scaledSquare > 0.0f) & (scaledSquare <= std::numeric_limits<float>::max());
-    return select(finite, scaled * (1.0f / sqrt(scaledSquare)), FloatN<size>(Float(0.0f)));
+    return detail::normalizeScaled(v, ordinary);
 }
 
 // The direction of light that comes from `incident` and is mirrored at a surface with the unit normal `normal`.

@@ -107,9 +107,11 @@ inline constexpr LanePixels kLanePixels = [] {
 // The block's pixels row after row, from left to right.
 inline Int inRows(Int a)
 {
-    return [a]<int... i>(std::integer_sequence<int, i...>) {
+    return [a]<int... i>(std::integer_sequence<int, i...>)
+    {
         return Int(__builtin_shufflevector(a.value, a.value, laneAt(i % kBlockWidth, i / kBlockWidth)...));
-    }(std::make_integer_sequence<int, kLanes>());
+    }
+    (std::make_integer_sequence<int, kLanes>());
 }
 
 // Every lane's pixel, counted from the block's upper left one.

@@ -49,18 +49,20 @@ template <class Words, class Address>
 [[gnu::always_inline]] inline void loadTransposed(const Address& address, IntVector* out)
 {
     Words words;
-    forEachQuad([&]<int quad>() {
-        words.template add<quad>(address(4 * quad), address(4 * quad + 1), address(4 * quad + 2), address(4 * quad + 3));
+    forEachQuad([&]<int quad>() __attribute__((always_inline)) {
+        words.template add<quad>(address(4 * quad), address(4 * quad + 1), address(4 * quad + 2),
+                                 address(4 * quad + 3));
     });
     words.transposed(out);
 }
 
 // The same, and `far` gets what lies `distance` bytes on. Lane by lane, so that an address is needed only once.
 template <class Words, class Address>
-[[gnu::always_inline]] inline void loadTransposed(const Address& address, std::size_t distance, IntVector* near, IntVector* far)
+[[gnu::always_inline]] inline void loadTransposed(const Address& address, std::size_t distance, IntVector* near,
+                                                  IntVector* far)
 {
     Words first, second;
-    forEachQuad([&]<int quad>() {
+    forEachQuad([&]<int quad>() __attribute__((always_inline)) {
         const std::byte* a = address(4 * quad);
         const std::byte* b = address(4 * quad + 1);
         const std::byte* c = address(4 * quad + 2);

@@ -205,10 +205,7 @@ private:
 
         Discard discard;
         float4 color = runProgram(
-            [&] {
-                return interpolate<Interpolators>(triangle, corners, weights, block.x, block.y, depth);
-            },
-            discard);
+            [&] { return interpolate<Interpolators>(triangle, corners, weights, block.x, block.y, depth); }, discard);
         if constexpr (kMayDiscard) {
             live &= !discard.discarded;
             if constexpr (kUsesDepth) testAndWriteDepth();

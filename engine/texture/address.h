@@ -35,7 +35,7 @@ inline constexpr int kNearestBits = 8;
 
 // The coordinate brought into the range that the conversion to fixed point is safe for: one period where the texture
 // repeats, else all that differs. It does not depend on the level. NaN stays or becomes 0.
-inline Float reduceRange(AddressMode mode, Float u)
+[[gnu::always_inline]] inline Float reduceRange(AddressMode mode, Float u)
 {
     switch (mode) {
         case AddressMode::wrap:
@@ -55,7 +55,7 @@ inline Float reduceRange(AddressMode mode, Float u)
 // The position of the first of the two texels that a bilinear fetch lies between, and 1/4096 of the way to the second,
 // in one number: position * 4096 + fraction. Position is in 0..side for wrap and 1..side for clamp and mirror (the last
 // with fraction 0); in the border mode it can be outside.
-inline Int pairPosition(AddressMode mode, Float reduced, int side, float sideInFloat)
+[[gnu::always_inline]] inline Int pairPosition(AddressMode mode, Float reduced, int side, float sideInFloat)
 {
     // Half a texel back from the edge to the centre, one on for the frame.
     const Float position =

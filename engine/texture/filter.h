@@ -58,7 +58,8 @@ struct Pairs
 template <class Fetch>
 [[gnu::always_inline]] inline float4 mixEach(const float4& a, const float4& b, Float t)
 {
-    return {Fetch::mix(a.x, b.x, t), Fetch::mix(a.y, b.y, t), Fetch::mix(a.z, b.z, t), Fetch::mix(a.w, b.w, t)};
+    const Float alpha = kIsOpaque<Fetch> ? a.w : Fetch::mix(a.w, b.w, t);
+    return {Fetch::mix(a.x, b.x, t), Fetch::mix(a.y, b.y, t), Fetch::mix(a.z, b.z, t), alpha};
 }
 
 // --- with a border: one texel at a time, rare and simple ---
@@ -90,6 +91,12 @@ template <class Fetch>
 
 // --- on one level ---
 
+// A border has an alpha of its own.
+inline bool leavesOutAlpha(const Place& place, const MipLevel& level)
+{
+    return level.isOpaque() && !hasBorder(place.sampler);
+}
+
 template <class Fetch>
 [[gnu::always_inline]] inline float4 nearestOn(const Place& place, const MipLevel& level)
 {
@@ -112,14 +119,27 @@ template <class Fetch>
 [[gnu::always_inline]] inline float4 sampleLevel(const Place& place, const MipLevel& level)
 {
     if (place.sampler.filter == Filter::nearest) return nearestOn<Fetch>(place, level);
-    return bilinearOn<Fetch>(place, level, pairsOn(place, level));
+    const Pairs at = pairsOn(place, level);
+    return leavesOutAlpha(place, level) ? bilinearOn<Opaque<Fetch>>(place, level, at)
+                                        : bilinearOn<Fetch>(place, level, at);
 }
 
 // --- on several levels ---
 
+// Both levels' texels are located before the first is fetched: the processor has something to do while the first
+// addresses are on their way through memory.
+template <class Fetch>
+[[gnu::always_inline]] inline float4 sampleBetween(const Place& place, const MipLevel& finer, const MipLevel& coarser,
+                                                   Float t)
+{
+    const Pairs onFiner = pairsOn(place, finer), onCoarser = pairsOn(place, coarser);
+    const float4 a = bilinearOn<Fetch>(place, finer, onFiner);
+    const float4 b = bilinearOn<Fetch>(place, coarser, onCoarser);
+    return mixEach<Fetch>(a, b, t);
+}
+
 // Level k for all lanes, and with the trilinear filter the part of level k + 1 that `fraction` (0..255) says; `lanes`
-// are those that the result is for. Both levels' texels are located before the first is fetched: the processor has
-// something to do while the first addresses are on their way through memory.
+// are those that the result is for.
 template <class Fetch>
 [[gnu::always_inline]] inline float4 sampleLevels(const Place& place, int k, Int fraction, unsigned lanes)
 {
@@ -128,10 +148,9 @@ template <class Fetch>
         return sampleLevel<Fetch>(place, finer);
     }
     const MipLevel& coarser = place.texture.level(k + 1);
-    const Pairs onFiner = pairsOn(place, finer), onCoarser = pairsOn(place, coarser);
-    const float4 a = bilinearOn<Fetch>(place, finer, onFiner);
-    const float4 b = bilinearOn<Fetch>(place, coarser, onCoarser);
-    return mixEach<Fetch>(a, b, Float(fraction) * (1.0f / kLodOne));
+    const Float t = Float(fraction) * (1.0f / kLodOne);
+    return leavesOutAlpha(place, finer) && coarser.isOpaque() ? sampleBetween<Opaque<Fetch>>(place, finer, coarser, t)
+                                                              : sampleBetween<Fetch>(place, finer, coarser, t);
 }
 
 // Every lane on its own level: one round per distinct level.

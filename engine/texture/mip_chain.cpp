@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 namespace relief {
@@ -103,6 +104,19 @@ void averageLevel(const MipLevel& fine, MipLevel& coarse)
     }
 }
 
+// Stops at the first texel that is not.
+template <class Channel>
+bool hasFullAlpha(const MipLevel& level)
+{
+    for (int y = 0; y < level.height(); ++y) {
+        const Channel* texel = level.texel<Channel>(0, y);
+        for (int x = 0; x < level.width(); ++x) {
+            if (texel[4 * x + 3] != std::numeric_limits<Channel>::max()) return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 int mipLevelCount(int width, int height)
@@ -136,6 +150,8 @@ void MipLevel::fillFrame()
     const auto framedRow = static_cast<std::size_t>(columns + 2);
     copy(-1, -1, -1, rows - 1, framedRow);
     copy(-1, rows, -1, 0, framedRow);
+    opaque = (texelBytes == 4 && hasFullAlpha<std::uint8_t>(*this)) ||
+             (texelBytes == 8 && hasFullAlpha<std::uint16_t>(*this));
 }
 
 MipLevel coarserLevel(TexelFormat format, const MipLevel& fine)

@@ -73,6 +73,9 @@ public:
     // Copies the texels of each side to the frame on the opposite one. To be called once all texels are written.
     void fillFrame();
 
+    // Whether alpha is 1 in every texel of a UNORM level, known from fillFrame() on: a fetch then leaves alpha out.
+    bool isOpaque() const { return opaque; }
+
 private:
     struct alignas(64) CacheLine
     {
@@ -88,6 +91,7 @@ private:
     std::size_t texelBytes;
     int columns, rows, stride;
     float columnsInFloat, rowsInFloat;
+    bool opaque = false;
 };
 
 // The next coarser level. Every coarse texel is the average of the fine area it covers: 2x2 texels where both sides

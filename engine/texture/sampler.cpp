@@ -209,8 +209,8 @@ struct Gradients
     float2 dx, dy;
 };
 
-// `gradients` is a function: it is called only where mip levels are wanted. `bias` is without the sampler's own, a float
-// or one per lane.
+// `gradients` is a function: it is called only where mip levels are wanted. `bias` is without the sampler's own, a
+// float or one per lane.
 template <class Bias, class Function>
 [[gnu::always_inline]] inline float4 sampleWith(const sampler2D& s, Float u, Float v, Bias bias, Function gradients)
 {

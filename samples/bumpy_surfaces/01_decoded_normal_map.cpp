@@ -54,7 +54,7 @@ struct MyFragmentProgram
         float3 localCoords = float3(encodedNormal.wy() * 2.0f - 1.0f, Float(0.0f));
         localCoords.z = sqrt(1.0f - saturate(dot(localCoords, localCoords)));
 
-        const float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
+        float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
         return normalize(mul(localSurface2World, localCoords));
     }
 

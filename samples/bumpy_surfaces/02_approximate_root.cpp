@@ -57,7 +57,7 @@ struct MyFragmentProgram
         const Float square = dot(localCoords, localCoords);
         localCoords.z = exact ? sqrt(1.0f - saturate(square)) : 1.0f - 0.5f * square;
 
-        const float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
+        float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
         return normalize(mul(localSurface2World, localCoords));
     }
 

@@ -59,7 +59,7 @@ struct MyFragmentProgram
             localCoords.z = sqrt(1.0f - saturate(dot(localCoords, localCoords)));
         }
 
-        const float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
+        float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
         return normalize(mul(localSurface2World, localCoords));
     }
 

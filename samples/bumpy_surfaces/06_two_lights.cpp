@@ -58,7 +58,7 @@ struct MyFragmentProgram
         float3 localCoords = float3(encodedNormal.wy() * 2.0f - 1.0f, Float(0.0f));
         localCoords.z = sqrt(1.0f - saturate(dot(localCoords, localCoords)));
 
-        const float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
+        float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
         const float3 normalDirection = normalize(mul(localSurface2World, localCoords));
         const float3 viewDirection = normalize(worldSpaceCameraPos - i.position);
         const float3 vertexToLightSource = worldSpaceLightPos0.xyz() - i.position * worldSpaceLightPos0.w;
