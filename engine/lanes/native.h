@@ -1,5 +1,5 @@
-// The few operations that compiler vectors do not have (comparison to mask, square root, rounding, transposed loads),
-// once per instruction set. Everything above this file is written with these and with + - * / on compiler vectors.
+// The few operations that compiler vectors do not have (comparison to mask, square root, rounding, transposed loads and
+// stores), once per instruction set. Everything above this file is written with these and + - * / on compiler vectors.
 // Each function here gives the same bits in all four variants: that is what tests/lanes.cpp checks.
 //
 // This is the only place in the engine that knows an instruction set by name.

@@ -147,6 +147,15 @@ inline void loadTransposed(const std::byte* const address[4], IntVector out[4])
     }
 }
 
+// The inverse: the k-th 32-bit word at address[i] = in[k] lane i; 16 bytes are written per lane.
+inline void storeTransposed(const IntVector in[4], std::byte* const address[4])
+{
+    for (int i = 0; i < 4; ++i) {
+        const std::int32_t word[4] = {in[0][i], in[1][i], in[2][i], in[3][i]};
+        std::memcpy(address[i], word, 16);
+    }
+}
+
 // out[k] lane i = the k-th 32-bit word at address[i]; 8 bytes are read per lane.
 inline void loadTransposedPair(const std::byte* const address[4], IntVector out[2])
 {
