@@ -283,12 +283,9 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
             if (triangles[count]->drawIndex != drawIndex) break;
         }
         const Draw& draw = *draws[drawIndex];
+        // Triangles of a bin lie anywhere in the chunk: the ones after these are asked for in time.
         for (std::uint32_t i = next; i < std::min<std::uint32_t>(last, next + kLanes); ++i)
             __builtin_prefetch(&chunk.triangles[chunk.sorted[i]]);
-        for (std::size_t i = 0; i < count; ++i) {
-            for (const std::uint32_t vertex : triangles[i]->vertex)
-                __builtin_prefetch(componentsOf(draw.geometry, chunk, vertex));
-        }
         const Rectangle clip = intersect(tilePixels(tileIndex), draw.geometry.bounds);
         TriangleBatch batch;
         batch.set({triangles, count}, clip);
