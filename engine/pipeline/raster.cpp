@@ -126,7 +126,7 @@ CoveredBlock* coverLarge(const TriangleBatch& batch, int triangle, const Rectang
 
 }  // namespace
 
-CoveredBlock* rasterise(const TriangleBatch& batch, const Rectangle& clip, CoveredBlock* out)
+[[gnu::flatten]] CoveredBlock* rasterise(const TriangleBatch& batch, const Rectangle& clip, CoveredBlock* out)
 {
     const Rectangle* cut = isOnBlockGrid(clip) ? nullptr : &clip;
     for (unsigned rest = batch.visible; rest != 0; rest &= rest - 1) {

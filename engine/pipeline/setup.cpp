@@ -28,11 +28,10 @@ struct Batch
 };
 
 // As std::max_element, but compilers make vector code of it.
-template <std::size_t count>
-std::uint32_t largestOf(const std::uint32_t (&numbers)[count])
+std::uint32_t largestOf(const std::uint32_t* numbers, std::uint32_t count)
 {
     std::uint32_t largest = 0;
-    for (const std::uint32_t number : numbers) largest = std::max(largest, number);
+    for (std::uint32_t i = 0; i < count; ++i) largest = std::max(largest, numbers[i]);
     return largest;
 }
 
@@ -60,20 +59,20 @@ Batch gather(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count,
 {
     constexpr std::uint32_t corners = 3 * kLanes;
     const std::uint32_t* const indices = draw.indices + 3 * static_cast<std::size_t>(first);
-    std::uint32_t index[corners];
-    if (count == kLanes) {
-        std::copy_n(indices, corners, index);
-    } else {
-        for (std::uint32_t i = 0; i < corners; ++i) index[i] = indices[i < 3 * count ? i : i % 3];
+    const bool inRange = largestOf(indices, 3 * count) < draw.vertexCount;
+    const std::uint32_t* index = indices;
+    std::uint32_t replaced[corners];
+    if (count < kLanes || !inRange) {
+        for (std::uint32_t i = 0; i < corners; ++i) {
+            replaced[i] = indices[i < 3 * count ? i : i % 3];
+            if (replaced[i] >= draw.vertexCount) replaced[i] = 0;
+        }
+        index = replaced;
     }
-    const bool inRange = largestOf(index) < draw.vertexCount;
-    if (!inRange)
-        std::replace_if(
-            index, index + corners, [&](std::uint32_t i) { return i >= draw.vertexCount; }, 0u);
 
     Batch batch;
     unsigned some = 0;
-    for (const std::uint32_t i : index) some |= draw.codes[i];
+    for (std::uint32_t i = 0; i < corners; ++i) some |= draw.codes[index[i]];
     if (inRange && some == 0) {
         batch.unclipped = count < kLanes ? (1u << count) - 1 : kAllLanes;
     } else {
@@ -156,16 +155,9 @@ void swapCorners(TriangleLanes& t, Mask where)
     swap(t.vertex[1], t.vertex[2]);
 }
 
-// Appends the lanes in `candidates` that survive culling.
-Survivors emit(const DrawGeometry& draw, TriangleLanes t, unsigned candidates, TriangleChunk& chunk)
+// Appends the lanes in `kept`. A Triangle is these sixteen words; lanes that are not kept go where nobody reads.
+void append(const DrawGeometry& draw, const TriangleLanes& t, unsigned kept, TriangleChunk& chunk)
 {
-    const Orientation orientation = orient(t, draw.cull);
-    const unsigned facing = candidates & orientation.kept;
-    const unsigned kept = facing & coversSample(t, draw.bounds);
-    if (kept == 0) return {facing, kept};
-    if (orientation.swapped != 0) swapCorners(t, Mask::fromBits(orientation.swapped));
-
-    // A Triangle is these sixteen words. Lanes that are not kept go where nobody reads.
     const std::size_t size = chunk.triangles.size();
     chunk.triangles.resize(size + static_cast<std::size_t>(std::popcount(kept)));
     auto* out = reinterpret_cast<std::byte*>(chunk.triangles.data() + size);
@@ -185,6 +177,22 @@ Survivors emit(const DrawGeometry& draw, TriangleLanes t, unsigned candidates, T
         bits(t.z[2]),      bits(t.invW[0]),   bits(t.invW[1]),   bits(t.invW[2]),
         t.vertex[0].value, t.vertex[1].value, t.vertex[2].value, Int(static_cast<std::int32_t>(draw.drawIndex)).value};
     for (int part = 0; part < 4; ++part) native::storeTransposed(word + 4 * part, address[part]);
+}
+
+// Appends the lanes in `candidates` that survive culling.
+Survivors emit(const DrawGeometry& draw, const TriangleLanes& t, unsigned candidates, TriangleChunk& chunk)
+{
+    const Orientation orientation = orient(t, draw.cull);
+    const unsigned facing = candidates & orientation.kept;
+    const unsigned kept = facing & coversSample(t, draw.bounds);
+    if (kept == 0) return {facing, kept};
+    if ((kept & orientation.swapped) != 0) {
+        TriangleLanes clockwise = t;
+        swapCorners(clockwise, Mask::fromBits(orientation.swapped));
+        append(draw, clockwise, kept, chunk);
+    } else {
+        append(draw, t, kept, chunk);
+    }
     return {facing, kept};
 }
 
