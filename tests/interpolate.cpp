@@ -24,12 +24,22 @@ Triangle makeTriangle(const Corners& c, const float (&z)[3], const float (&w)[3]
     return t;
 }
 
-TriangleWeights weightsOf(const Triangle& t)
+// The weights of one triangle, with the batch that they refer to.
+struct Weights : TriangleWeights
 {
-    TriangleWeights weights;
-    weights.set(t);
-    return weights;
-}
+    explicit Weights(const Triangle& t) : triangle(t)
+    {
+        const Triangle* const one[] = {&triangle};
+        batch.set(one, {0, 0, kMaxTargetSize, kMaxTargetSize});
+        set(batch, 0);
+    }
+    Weights(const Weights&) = delete;
+    Weights& operator=(const Weights&) = delete;
+
+private:
+    Triangle triangle;
+    TriangleBatch batch;
+};
 
 bool isClockwise(const Corners& c)
 {
@@ -94,7 +104,7 @@ Errors measure(const Corners& c, const float (&z)[3], const float (&w)[3], const
 {
     Errors errors;
     const Triangle t = makeTriangle(c, z, w);
-    const TriangleWeights weights = weightsOf(t);
+    const Weights weights(t);
     CornerComponents<1> corners;
     corners.set(&v[0], &v[1], &v[2]);
     const double largest = std::fmax(std::fabs(v[0]), std::fmax(std::fabs(v[1]), std::fabs(v[2])));
@@ -269,7 +279,7 @@ TEST_CASE("interpolate: a value that is equal at all corners comes out unchanged
         if (!isClockwise(c)) std::swap(c[1], c[2]);
         if (!isClockwise(c)) continue;
         const float value = random.real(-100, 100);
-        const TriangleWeights weights = weightsOf(makeTriangle(
+        const Weights weights(makeTriangle(
             c, {0.3f, 0.3f, 0.3f}, {random.real(0.001f, 1000), random.real(0.001f, 1000), random.real(0.001f, 1000)}));
         CornerComponents<1> corners;
         corners.set(&value, &value, &value);
@@ -291,7 +301,7 @@ TEST_CASE("interpolate: with equal w at all corners perspective is affine (S-404
         if (!isClockwise(c)) std::swap(c[1], c[2]);
         if (!isClockwise(c)) continue;
         const float w = random.real(0.001f, 1000);
-        const TriangleWeights weights = weightsOf(makeTriangle(c, {0, 0, 0}, {w, w, w}));
+        const Weights weights(makeTriangle(c, {0, 0, 0}, {w, w, w}));
         const float v[3] = {random.real(0, 1), random.real(0, 1), random.real(0, 1)};
         CornerComponents<1> corners;
         corners.set(&v[0], &v[1], &v[2]);

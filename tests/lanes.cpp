@@ -159,6 +159,25 @@ TEST_CASE("loadTransposed: word k of every lane's address")
     }
 }
 
+TEST_CASE("storeTransposed: word k of every lane's address, and no other byte")
+{
+    std::array<std::byte, 32 * kLanes> bytes{};
+    std::array<std::byte, 32 * kLanes> expected{};
+    std::byte* address[kLanes];
+    native::IntVector in[4];
+    for (int i = 0; i < kLanes; ++i) {
+        const std::size_t place = static_cast<std::size_t>(i * 7 % kLanes) * 32 + static_cast<std::size_t>(i);
+        address[i] = bytes.data() + place;
+        for (int k = 0; k < 4; ++k) {
+            const std::int32_t word = 0x00034567 * (4 * i + k + 1);
+            in[k][i] = word;
+            std::memcpy(expected.data() + place + 4 * k, &word, 4);
+        }
+    }
+    native::storeTransposed(in, address);
+    CHECK(bytes == expected);
+}
+
 TEST_CASE("loadTransposedPair: both words of every lane's address")
 {
     const Memory memory;

@@ -26,6 +26,14 @@ bool makeTriangle(const Corners& c, Triangle& t)
     return area != 0;
 }
 
+TriangleBatch batchOf(const Triangle& t, const Rectangle& pixels)
+{
+    const Triangle* const one[] = {&t};
+    TriangleBatch batch;
+    batch.set(one, pixels);
+    return batch;
+}
+
 // rasterise() into a count per pixel of a rectangle at the origin; counts blocks that break a promise.
 class Raster
 {
@@ -37,9 +45,9 @@ public:
 
     void add(const Triangle& t, const Rectangle& pixels)
     {
-        CoveredBlock* const end = rasterise(t, pixels, blocks.data());
+        const CoveredBlock* const end = rasterise(batchOf(t, pixels), pixels, blocks.data());
         for (const CoveredBlock* b = blocks.data(); b != end; ++b) {
-            broken += b->triangle != &t || b->coverage == 0 || (b->coverage & ~kAllLanes) != 0;
+            broken += b->triangle != 0 || b->coverage == 0 || (b->coverage & ~kAllLanes) != 0;
             broken += b->x % kBlockWidth != 0 || b->y % kBlockHeight != 0;
             for (int lane = 0; lane < kLanes; ++lane) {
                 if ((b->coverage >> lane & 1u) == 0) continue;
@@ -197,7 +205,7 @@ TEST_CASE("raster: exact at the far corner of the largest target")
             wrong += exactCount(c, clip) != 0;
             continue;
         }
-        const CoveredBlock* const end = rasterise(t, pixels, blocks.data());
+        const CoveredBlock* const end = rasterise(batchOf(t, pixels), pixels, blocks.data());
         int covered = 0;
         const ExactTriangle exact(c);
         for (const CoveredBlock* b = blocks.data(); b != end; ++b) {

@@ -1,5 +1,5 @@
-// The few operations that compiler vectors do not have (comparison to mask, square root, rounding, transposed loads),
-// once per instruction set. Everything above this file is written with these and with + - * / on compiler vectors.
+// The few operations that compiler vectors do not have (comparison to mask, square root, rounding, transposed loads and
+// stores), once per instruction set. Everything above this file is written with these and + - * / on compiler vectors.
 // Each function here gives the same bits in all four variants: that is what tests/lanes.cpp checks.
 //
 // This is the only place in the engine that knows an instruction set by name.
@@ -72,6 +72,15 @@ template <class Words, class Address>
     });
     first.transposed(near);
     second.transposed(far);
+}
+
+inline void loadTransposed(const std::byte* const* address, IntVector out[4])
+{
+    loadTransposed<FourWords>([address](int lane) { return address[lane]; }, out);
+}
+inline void loadTransposedPair(const std::byte* const* address, IntVector out[2])
+{
+    loadTransposed<TwoWords>([address](int lane) { return address[lane]; }, out);
 }
 
 }  // namespace relief::native

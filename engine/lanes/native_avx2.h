@@ -142,6 +142,25 @@ inline __m128i loadSixteen(const std::byte* address)
     return _mm_loadu_si128(reinterpret_cast<const __m128i*>(address));
 }
 
+inline void storeTwo(__m256i r, std::byte* low, std::byte* high)
+{
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(low), _mm256_castsi256_si128(r));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(high), _mm256_extracti128_si256(r, 1));
+}
+
+// The inverse of loadTransposed: the k-th 32-bit word at address[i] = in[k] lane i; 16 bytes are written per lane.
+inline void storeTransposed(const IntVector in[4], std::byte* const address[8])
+{
+    const __m256i t0 = _mm256_unpacklo_epi32(wrap(in[0]), wrap(in[1]));
+    const __m256i t1 = _mm256_unpacklo_epi32(wrap(in[2]), wrap(in[3]));
+    const __m256i t2 = _mm256_unpackhi_epi32(wrap(in[0]), wrap(in[1]));
+    const __m256i t3 = _mm256_unpackhi_epi32(wrap(in[2]), wrap(in[3]));
+    storeTwo(_mm256_unpacklo_epi64(t0, t1), address[0], address[4]);
+    storeTwo(_mm256_unpackhi_epi64(t0, t1), address[1], address[5]);
+    storeTwo(_mm256_unpacklo_epi64(t2, t3), address[2], address[6]);
+    storeTwo(_mm256_unpackhi_epi64(t2, t3), address[3], address[7]);
+}
+
 inline __m128i loadTwoHalves(const std::byte* low, const std::byte* high)
 {
     const __m128i l = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(low));

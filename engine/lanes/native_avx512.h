@@ -152,6 +152,27 @@ inline __m128i loadSixteen(const std::byte* address)
     return _mm_loadu_si128(reinterpret_cast<const __m128i*>(address));
 }
 
+inline void storeFour(__m512i r, std::byte* a, std::byte* b, std::byte* c, std::byte* d)
+{
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(a), _mm512_castsi512_si128(r));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(b), _mm512_extracti32x4_epi32(r, 1));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(c), _mm512_extracti32x4_epi32(r, 2));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(d), _mm512_extracti32x4_epi32(r, 3));
+}
+
+// The inverse of loadTransposed: the k-th 32-bit word at address[i] = in[k] lane i; 16 bytes are written per lane.
+inline void storeTransposed(const IntVector in[4], std::byte* const address[16])
+{
+    const __m512i t0 = _mm512_unpacklo_epi32(wrap(in[0]), wrap(in[1]));
+    const __m512i t1 = _mm512_unpacklo_epi32(wrap(in[2]), wrap(in[3]));
+    const __m512i t2 = _mm512_unpackhi_epi32(wrap(in[0]), wrap(in[1]));
+    const __m512i t3 = _mm512_unpackhi_epi32(wrap(in[2]), wrap(in[3]));
+    storeFour(_mm512_unpacklo_epi64(t0, t1), address[0], address[4], address[8], address[12]);
+    storeFour(_mm512_unpackhi_epi64(t0, t1), address[1], address[5], address[9], address[13]);
+    storeFour(_mm512_unpacklo_epi64(t2, t3), address[2], address[6], address[10], address[14]);
+    storeFour(_mm512_unpackhi_epi64(t2, t3), address[3], address[7], address[11], address[15]);
+}
+
 inline __m128i loadTwoHalves(const std::byte* low, const std::byte* high)
 {
     const __m128i l = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(low));

@@ -177,6 +177,15 @@ private:
     std::int32_t word[4][2];
 };
 
+// The inverse of loadTransposed: the k-th 32-bit word at address[i] = in[k] lane i; 16 bytes are written per lane.
+inline void storeTransposed(const IntVector in[4], std::byte* const address[4])
+{
+    for (int i = 0; i < 4; ++i) {
+        const std::int32_t word[4] = {in[0][i], in[1][i], in[2][i], in[3][i]};
+        std::memcpy(address[i], word, 16);
+    }
+}
+
 // In every lane the low halves' product plus the high halves', halves taken as signed 16-bit numbers.
 inline IntVector multiplyAddHalves(IntVector a, IntVector b)
 {

@@ -200,6 +200,19 @@ private:
     __m128i r0 = {}, r1 = {};
 };
 
+// The inverse of loadTransposed: the k-th 32-bit word at address[i] = in[k] lane i; 16 bytes are written per lane.
+inline void storeTransposed(const IntVector in[4], std::byte* const address[4])
+{
+    const __m128i t0 = _mm_unpacklo_epi32(wrap(in[0]), wrap(in[1]));
+    const __m128i t1 = _mm_unpacklo_epi32(wrap(in[2]), wrap(in[3]));
+    const __m128i t2 = _mm_unpackhi_epi32(wrap(in[0]), wrap(in[1]));
+    const __m128i t3 = _mm_unpackhi_epi32(wrap(in[2]), wrap(in[3]));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(address[0]), _mm_unpacklo_epi64(t0, t1));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(address[1]), _mm_unpackhi_epi64(t0, t1));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(address[2]), _mm_unpacklo_epi64(t2, t3));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(address[3]), _mm_unpackhi_epi64(t2, t3));
+}
+
 // In every lane the low halves' product plus the high halves', halves taken as signed 16-bit numbers.
 inline IntVector multiplyAddHalves(IntVector a, IntVector b)
 {

@@ -1,7 +1,9 @@
 #include "pipeline/bin.h"
 
 #include <algorithm>
+#include <bit>
 
+#include "lanes/int.h"
 #include "pipeline/edge_function.h"
 
 namespace relief {
@@ -15,27 +17,42 @@ bool rejects(const EdgeFunction& edge, int x, int y, int size)
     return edge.coverage(x, y) + reach * std::max(0, edge.stepX) + reach * std::max(0, edge.stepY) < 0;
 }
 
-void binTriangle(TriangleChunk& chunk, std::uint32_t index, const TileGrid& grid, const Rectangle& bounds)
+// kLanes triangles of one draw, or fewer: the tiles that their pixels' bounds span.
+struct TileSpans
+{
+    Int x0, y0, x1, y1;  // tiles, all included
+
+    TileSpans(const Triangle* first, std::uint32_t count, const TileGrid& grid, const Rectangle& bounds)
+    {
+        const std::byte* address[2][kLanes];
+        for (std::uint32_t i = 0; i < kLanes; ++i) {
+            address[0][i] = reinterpret_cast<const std::byte*>(first + (i < count ? i : 0));
+            address[1][i] = address[0][i] + 16;
+        }
+        native::IntVector w[8];  // the corners' x and y are a triangle's first six words
+        native::loadTransposed(address[0], w);
+        native::loadTransposed(address[1], w + 4);
+        const Int minX = min(min(Int(w[0]), Int(w[1])), Int(w[2])), maxX = max(max(Int(w[0]), Int(w[1])), Int(w[2]));
+        const Int minY = min(min(Int(w[3]), Int(w[4])), Int(w[5])), maxY = max(max(Int(w[3]), Int(w[4])), Int(w[5]));
+        const int half = kSubpixels / 2, shift = std::countr_zero(static_cast<unsigned>(grid.tileSize));
+        x0 = max((minX + (half - 1)) >> kSubpixelBits, bounds.x0) >> shift;
+        y0 = max((minY + (half - 1)) >> kSubpixelBits, bounds.y0) >> shift;
+        x1 = min((maxX - half) >> kSubpixelBits, bounds.x1 - 1) >> shift;
+        y1 = min((maxY - half) >> kSubpixelBits, bounds.y1 - 1) >> shift;
+    }
+};
+
+// A triangle over several tiles: those that no edge keeps out.
+void binLarge(TriangleChunk& chunk, std::uint32_t index, const TileGrid& grid, int x0, int y0, int x1, int y1)
 {
     const Triangle& t = chunk.triangles[index];
-    const Rectangle pixels = sampleBounds(t, bounds);
-    const int shift = std::countr_zero(static_cast<unsigned>(grid.tileSize));
-    const int x0 = pixels.x0 >> shift, x1 = (pixels.x1 - 1) >> shift;
-    const int y0 = pixels.y0 >> shift, y1 = (pixels.y1 - 1) >> shift;
-    const auto add = [&](int x, int y) {
-        chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.width + x), index});
-    };
-    if (x0 == x1 && y0 == y1) {
-        add(x0, y0);
-        return;
-    }
     const EdgeFunction edges[3] = {edgeOf(t, 0), edgeOf(t, 1), edgeOf(t, 2)};
     for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
             const bool outside = std::any_of(edges, edges + 3, [&](const EdgeFunction& edge) {
-                return rejects(edge, x << shift, y << shift, grid.tileSize);
+                return rejects(edge, x * grid.tileSize, y * grid.tileSize, grid.tileSize);
             });
-            if (!outside) add(x, y);
+            if (!outside) chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.width + x), index});
         }
     }
 }
@@ -44,18 +61,49 @@ void binTriangle(TriangleChunk& chunk, std::uint32_t index, const TileGrid& grid
 
 void binTriangles(TriangleChunk& chunk, const TileGrid& grid, const DrawGeometry* const* draws, Statistics& statistics)
 {
-    for (std::uint32_t i = 0; i < chunk.triangles.size(); ++i) {
-        binTriangle(chunk, i, grid, draws[chunk.triangles[i].drawIndex]->bounds);
+    const auto total = static_cast<std::uint32_t>(chunk.triangles.size());
+    chunk.entries.reserve(total);
+    for (std::uint32_t next = 0; next < total;) {
+        const Triangle* const first = &chunk.triangles[next];
+        std::uint32_t count = 1;
+        while (count < kLanes && next + count < total && first[count].drawIndex == first->drawIndex) ++count;
+        const TileSpans span(first, count, grid, draws[first->drawIndex]->bounds);
+        const Int tile = span.y0 * Int(grid.width) + span.x0;
+        const unsigned single = ((span.x0 == span.x1) & (span.y0 == span.y1)).bits();
+        for (std::uint32_t i = 0; i < count; ++i, ++next) {
+            const int lane = static_cast<int>(i);
+            if ((single >> i & 1u) != 0) {
+                chunk.entries.push_back({static_cast<std::uint32_t>(tile[lane]), next});
+            } else {
+                binLarge(chunk, next, grid, span.x0[lane], span.y0[lane], span.x1[lane], span.y1[lane]);
+            }
+        }
     }
     statistics.trianglesBinned += chunk.entries.size();
 
-    // A counting sort by tile; it keeps the order of equal keys.
-    chunk.binStart.assign(static_cast<std::size_t>(grid.count()) + 1, 0);
-    for (const TriangleChunk::BinEntry& e : chunk.entries) ++chunk.binStart[e.tile + 1];
-    for (std::size_t tile = 1; tile < chunk.binStart.size(); ++tile) chunk.binStart[tile] += chunk.binStart[tile - 1];
-    chunk.sorted.resize(chunk.entries.size());
-    std::vector<std::uint32_t> next(chunk.binStart.begin(), chunk.binStart.end() - 1);
-    for (const TriangleChunk::BinEntry& e : chunk.entries) chunk.sorted[next[e.tile]++] = e.triangle;
+    // A counting sort by tile; it keeps the order of equal keys. While it runs, binStart[tile + 1] is where the tile's
+    // next triangle goes; in the end that is where the tile after it starts.
+    // Neighbours are often of one tile, and are counted together: a sum in memory would wait for the one before.
+    chunk.binStart.assign(static_cast<std::size_t>(grid.count()) + 2, 0);
+    const std::vector<TriangleChunk::BinEntry>& entries = chunk.entries;
+    const auto endOfRun = [&entries](std::size_t first) {
+        std::size_t end = first + 1;
+        while (end < entries.size() && entries[end].tile == entries[first].tile) ++end;
+        return end;
+    };
+    for (std::size_t i = 0, end; i < entries.size(); i = end) {
+        end = endOfRun(i);
+        chunk.binStart[entries[i].tile + 2] += static_cast<std::uint32_t>(end - i);
+    }
+    for (std::size_t tile = 2; tile < chunk.binStart.size(); ++tile) chunk.binStart[tile] += chunk.binStart[tile - 1];
+    chunk.sorted.resize(entries.size());
+    for (std::size_t i = 0, end; i < entries.size(); i = end) {
+        end = endOfRun(i);
+        std::uint32_t& start = chunk.binStart[entries[i].tile + 1];
+        for (std::size_t k = i; k < end; ++k) chunk.sorted[start + (k - i)] = entries[k].triangle;
+        start += static_cast<std::uint32_t>(end - i);
+    }
+    chunk.binStart.pop_back();
 }
 
 }  // namespace relief

@@ -3,7 +3,7 @@
 //     vertices     shadeVertices   the vertex program, kLanes vertices at a time      -> clip space, screen
 //     triangles    setUpTriangles  clip, cull, snap to the pixel grid (setUpLines: lines become thin triangles)
 //                  binTriangles    to the tiles that each one touches
-//     tile by tile rasterise       which pixels of which blocks are covered
+//     tile by tile rasterise       which pixels of which blocks are covered, a TriangleBatch at a time
 //                  shadeBlocks     depth test, interpolate, the fragment program, merge
 //
 // Programs are functors on lanes; a Draw holds them by value and refers to the mesh. frame.h runs it all.
@@ -55,13 +55,14 @@ public:
     // Vertices first ... first + count - 1, into geometry's arrays.
     virtual void shadeVertices(std::uint32_t first, std::uint32_t count) const = 0;
 
-    // Covered blocks of one tile, in order; all triangles belong to this draw and this chunk.
-    virtual void shadeBlocks(std::span<const CoveredBlock> blocks, const TriangleChunk& chunk, Tile& tile,
-                             Statistics& statistics) const = 0;
+    // Covered blocks of one tile, in order; all triangles belong to this draw, this chunk and this batch.
+    virtual void shadeBlocks(std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
+                             const TriangleChunk& chunk, Tile& tile, Statistics& statistics) const = 0;
 
     // Runs the fragment program alone `times` times on the input of one block: without raster, depth test, blending and
     // memory, the program's own cost. Returns a sum of the results.
-    virtual float shadeAlone(const CoveredBlock& block, const TriangleChunk& chunk, std::uint64_t times) const = 0;
+    virtual float shadeAlone(const CoveredBlock& block, const TriangleBatch& batch, const TriangleChunk& chunk,
+                             std::uint64_t times) const = 0;
 
     // The vertex program's output, as hlsl/signature.h prints it.
     virtual std::string outputSignature() const = 0;
@@ -95,18 +96,18 @@ public:
         relief::shadeVertices<VertexData>(vertexProgram, mesh, geometry, first, count);
     }
 
-    [[gnu::flatten]] void shadeBlocks(std::span<const CoveredBlock> blocks, const TriangleChunk& chunk, Tile& tile,
-                                      Statistics& statistics) const override
+    [[gnu::flatten]] void shadeBlocks(std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
+                                      const TriangleChunk& chunk, Tile& tile, Statistics& statistics) const override
     {
-        const Triangle* current = nullptr;
+        int current = -1;
         TriangleWeights triangle;
         CornerComponents<kCount> corners;
         Counts counts;
         for (const CoveredBlock& block : blocks) {
             if (block.triangle != current) {
                 current = block.triangle;
-                triangle.set(*current);
-                setCorners(corners, *current, chunk);
+                triangle.set(batch, current);
+                setCorners(corners, *batch.triangle[current], chunk);
             }
             shadeBlock(block, triangle, corners, tile, counts);
         }
@@ -118,13 +119,13 @@ public:
         statistics.invalidColors += counts.invalid;
     }
 
-    [[gnu::flatten]] float shadeAlone(const CoveredBlock& block, const TriangleChunk& chunk,
+    [[gnu::flatten]] float shadeAlone(const CoveredBlock& block, const TriangleBatch& batch, const TriangleChunk& chunk,
                                       std::uint64_t times) const override
     {
         TriangleWeights triangle;
-        triangle.set(*block.triangle);
+        triangle.set(batch, block.triangle);
         CornerComponents<kCount> corners;
-        setCorners(corners, *block.triangle, chunk);
+        setCorners(corners, *batch.triangle[block.triangle], chunk);
         const BlockWeights weights = triangle.at(block.x, block.y, block.coverage);
         const Interpolators input =
             interpolate<Interpolators>(triangle, corners, weights, block.x, block.y, triangle.depth(weights));

@@ -89,6 +89,8 @@ struct Frame::Storage
         const int x = tileIndex % grid.width * grid.tileSize, y = tileIndex / grid.width * grid.tileSize;
         return {x, y, x + grid.tileSize, y + grid.tileSize};
     }
+    // The room that rasterise() asks for: every triangle of a batch may cover all of a tile.
+    std::size_t coveredBlocks() const { return static_cast<std::size_t>(grid.tileSize * grid.tileSize) + 1; }
     void drawTile(int tileIndex, Worker& worker);
     void drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker);
 
@@ -268,32 +270,29 @@ void Frame::Storage::drawTile(int tileIndex, Worker& worker)
 
 void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker)
 {
-    // Blocks are collected and shaded in batches: of one draw each, and at most this many and one more tile's worth.
-    constexpr std::size_t kBatch = 256;
-    const std::size_t blocksInTile = static_cast<std::size_t>(grid.tileSize * grid.tileSize / kLanes);
-    worker.blocks.resize(kBatch + blocksInTile + 1);
-    CoveredBlock* const begin = worker.blocks.data();
-    CoveredBlock* end = begin;
-    std::uint32_t current = 0;
-    Rectangle clip = intersect(tilePixels(tileIndex), draws[current]->geometry.bounds);
-    const auto flush = [&] {
-        if (end == begin) return;
-        draws[current]->shadeBlocks({begin, end}, chunk, *worker.tile, worker.statistics);
-        end = begin;
-    };
-
+    worker.blocks.resize(coveredBlocks());
     const auto tile = static_cast<std::size_t>(tileIndex);
-    for (std::uint32_t i = chunk.binStart[tile]; i < chunk.binStart[tile + 1]; ++i) {
-        const Triangle& triangle = chunk.triangles[chunk.sorted[i]];
-        if (triangle.drawIndex != current) {
-            flush();
-            current = triangle.drawIndex;
-            clip = intersect(tilePixels(tileIndex), draws[current]->geometry.bounds);
+    const std::uint32_t last = chunk.binStart[tile + 1];
+    for (std::uint32_t next = chunk.binStart[tile]; next < last;) {
+        // The next triangles, as far as they are of one draw.
+        const std::uint32_t drawIndex = chunk.triangles[chunk.sorted[next]].drawIndex;
+        const Triangle* triangles[kLanes];
+        std::size_t count = 0;
+        for (; count < kLanes && next < last; ++count, ++next) {
+            triangles[count] = &chunk.triangles[chunk.sorted[next]];
+            if (triangles[count]->drawIndex != drawIndex) break;
         }
-        if (end - begin >= static_cast<std::ptrdiff_t>(kBatch)) flush();
-        end = rasterise(triangle, clip, end);
+        const Draw& draw = *draws[drawIndex];
+        // Triangles of a bin lie anywhere in the chunk: the ones after these are asked for in time.
+        for (std::uint32_t i = next; i < std::min<std::uint32_t>(last, next + kLanes); ++i)
+            __builtin_prefetch(&chunk.triangles[chunk.sorted[i]]);
+        const Rectangle clip = intersect(tilePixels(tileIndex), draw.geometry.bounds);
+        TriangleBatch batch;
+        batch.set({triangles, count}, clip);
+        CoveredBlock* const blocks = worker.blocks.data();
+        const CoveredBlock* const end = rasterise(batch, clip, blocks);
+        if (end != blocks) draw.shadeBlocks({blocks, end}, batch, chunk, *worker.tile, worker.statistics);
     }
-    flush();
 }
 
 int Frame::drawCount() const
@@ -328,11 +327,12 @@ float Frame::shadeAlone(std::uint64_t blocks) const
     struct Sample
     {
         CoveredBlock block;
+        const Triangle* triangle;
         const TriangleChunk* chunk;
     };
     const Storage& s = *storage;
     std::vector<Sample> samples;
-    std::vector<CoveredBlock> covered(static_cast<std::size_t>(s.grid.tileSize * s.grid.tileSize / kLanes) + 1);
+    std::vector<CoveredBlock> covered(s.coveredBlocks());
     for (std::size_t c = 0; c < s.usedChunks; ++c) {
         for (int tile = 0; tile < s.grid.count(); ++tile) {
             const TriangleChunk& chunk = s.chunks[c];
@@ -340,9 +340,12 @@ float Frame::shadeAlone(std::uint64_t blocks) const
             if (first == chunk.binStart[static_cast<std::size_t>(tile) + 1]) continue;
             const Triangle& triangle = chunk.triangles[chunk.sorted[first]];
             const Rectangle pixels = intersect(s.tilePixels(tile), s.draws[triangle.drawIndex]->geometry.bounds);
-            const CoveredBlock* end = rasterise(triangle, pixels, covered.data());
+            const Triangle* const one[] = {&triangle};
+            TriangleBatch batch;
+            batch.set(one, pixels);
+            const CoveredBlock* end = rasterise(batch, pixels, covered.data());
             if (end == covered.data()) continue;
-            samples.push_back({covered[static_cast<std::size_t>(end - covered.data()) / 2], &chunk});
+            samples.push_back({covered[static_cast<std::size_t>(end - covered.data()) / 2], &triangle, &chunk});
         }
     }
     float sum = 0.0f;
@@ -350,7 +353,10 @@ float Frame::shadeAlone(std::uint64_t blocks) const
         // Shares that add up to `blocks`.
         const std::uint64_t times = blocks * (i + 1) / samples.size() - blocks * i / samples.size();
         const Sample& sample = samples[i];
-        sum += s.draws[sample.block.triangle->drawIndex]->shadeAlone(sample.block, *sample.chunk, times);
+        const Draw& draw = *s.draws[sample.triangle->drawIndex];
+        TriangleBatch batch;
+        batch.set({&sample.triangle, 1}, draw.geometry.bounds);
+        sum += draw.shadeAlone(sample.block, batch, *sample.chunk, times);
     }
     return sum;
 }

@@ -6,11 +6,10 @@
 //     p_k = E_k / w_k / sum(E_j / w_j)     linear in space: everything else
 #pragma once
 
-#include <limits>
-
 #include "hlsl/semantics.h"
 #include "lanes/double.h"
 #include "pipeline/edge_function.h"
+#include "pipeline/triangle_batch.h"
 
 namespace relief {
 
@@ -22,55 +21,28 @@ struct BlockWeights
     Float inverseSum;                  // 1 / sum(E_j / w_j), w scaled by TriangleWeights::scale
 };
 
+// One triangle of a batch, which must live as long.
 class TriangleWeights
 {
 public:
-    TriangleWeights() = default;
-    explicit TriangleWeights(const Triangle& t) { set(t); }
-
-    void set(const Triangle& t)
+    void set(const TriangleBatch& triangles, int triangle)
     {
-        small = isSmall(t);
+        batch = &triangles;
+        lane = triangle;
+        nearest = batch->nearest[lane];
+        farthest = batch->farthest[lane];
+        small = (batch->small >> lane & 1u) != 0;
         for (int k = 0; k < 3; ++k) {
-            edge[k] = edgeOf(t, k);
-            const Int steps = laneXs() * Int(edge[k].stepX) + laneYs() * Int(edge[k].stepY);
             if (small) {
-                smallLanes[k] = steps << kSubpixelBits;
+                const Int stepX = batch->stepX[k][lane], stepY = batch->stepY[k][lane];
+                smallLanes[k] = laneXs() * stepX + laneYs() * stepY + batch->origin[k][lane];
             } else {
+                edge[k] = edgeOf(*batch->triangle[lane], k);
+                const Int steps = laneXs() * Int(edge[k].stepX) + laneYs() * Int(edge[k].stepY);
                 // stepX * 3 + stepY * 3 stays below 2^27; times 256 it needs the double.
                 largeLanes[k] = Double(steps) * Double(kSubpixels);
             }
         }
-        const std::int64_t area = static_cast<std::int64_t>(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) -
-                                  static_cast<std::int64_t>(t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
-        inverseArea = 1.0f / static_cast<float>(area);
-
-        // 1/w times a power of two that brings the largest near 1: exact, and no w can over- or underflow the sums.
-        float largest = t.invW[0];
-        for (int k = 1; k < 3; ++k) largest = t.invW[k] > largest ? t.invW[k] : largest;
-        const std::uint32_t exponent = std::bit_cast<std::uint32_t>(largest) & 0x7f800000u;
-        const float powerOfTwo = std::bit_cast<float>(0x7f000000u - (exponent < 0x00800000u ? 0x00800000u : exponent));
-        // The smallest are kept above zero: a pixel in the very corner has no other weight to be divided by.
-        constexpr float least = std::numeric_limits<float>::min();
-        for (int k = 0; k < 3; ++k) {
-            invW[k] = t.invW[k] * powerOfTwo;
-            invW[k] = invW[k] < least ? least : invW[k];
-        }
-        scale = powerOfTwo;
-        doubledArea = static_cast<float>(area);
-
-        z0 = t.z[0];
-        dz1 = t.z[1] - t.z[0];
-        dz2 = t.z[2] - t.z[0];
-        nearest = t.z[0];
-        farthest = t.z[0];
-        for (int k = 1; k < 3; ++k) {
-            nearest = t.z[k] < nearest ? t.z[k] : nearest;
-            farthest = t.z[k] > farthest ? t.z[k] : farthest;
-        }
-        const auto inRange = [](float z) { return z < 0.0f ? 0.0f : z > 1.0f ? 1.0f : z; };
-        nearest = inRange(nearest);
-        farthest = inRange(farthest);
     }
 
     // Of the block whose upper left pixel is (x, y). `covered` lanes lie in the triangle.
@@ -80,9 +52,11 @@ public:
         for (int k = 0; k < 3; ++k) e[k] = edgeValue(k, x, y);
 
         BlockWeights w;
+        const float inverseArea = batch->inverseArea[lane];
         w.linear1 = e[1] * inverseArea;
         w.linear2 = e[2] * inverseArea;
 
+        const float invW[3] = {batch->invW[0][lane], batch->invW[1][lane], batch->invW[2][lane]};
         Float sum = e[0] * invW[0] + e[1] * invW[1] + e[2] * invW[2];
         if (covered != kAllLanes) [[unlikely]] {
             // Beyond the triangle the sum, which is 1/w, may reach zero: behind the horizon. There, attributes come
@@ -103,11 +77,11 @@ public:
     // Linear on screen, and never outside 0 ... 1 and the corners' range, so that coarse depth bounds are safe.
     Float depth(const BlockWeights& w) const
     {
-        return clamp(z0 + w.linear1 * dz1 + w.linear2 * dz2, nearest, farthest);
+        return clamp(batch->z0[lane] + w.linear1 * batch->dz1[lane] + w.linear2 * batch->dz2[lane], nearest, farthest);
     }
 
     // Clip-space w at the pixels.
-    Float clipW(const BlockWeights& w) const { return doubledArea * w.inverseSum * scale; }
+    Float clipW(const BlockWeights& w) const { return batch->doubledArea[lane] * w.inverseSum * batch->scale[lane]; }
 
     float nearest = 0, farthest = 0;  // the corners' depths, within 0 ... 1
 
@@ -115,20 +89,24 @@ private:
     // E at the pixels of a block: an exact integer either way, then rounded once.
     Float edgeValue(int k, int x, int y) const
     {
+        if (small) {
+            const auto stepX = static_cast<std::uint32_t>(batch->stepX[k][lane]);
+            const auto stepY = static_cast<std::uint32_t>(batch->stepY[k][lane]);
+            const std::uint32_t steps = stepX * static_cast<std::uint32_t>(x) + stepY * static_cast<std::uint32_t>(y);
+            return Float(smallLanes[k] + static_cast<std::int32_t>(steps));
+        }
         const std::int64_t steps =
             static_cast<std::int64_t>(edge[k].stepX) * x + static_cast<std::int64_t>(edge[k].stepY) * y;
         const std::int64_t corner = edge[k].origin + steps * kSubpixels;
-        if (small) return Float(smallLanes[k] + static_cast<std::int32_t>(corner));
         return toFloat(largeLanes[k] + Double(static_cast<double>(corner)));
     }
 
-    EdgeFunction edge[3] = {};
-    Int smallLanes[3] = {0, 0, 0};
-    Double largeLanes[3] = {0.0, 0.0, 0.0};
+    const TriangleBatch* batch = nullptr;
+    int lane = 0;
     bool small = false;
-    float doubledArea = 0, inverseArea = 0, scale = 0;
-    float invW[3] = {};
-    float z0 = 0, dz1 = 0, dz2 = 0;
+    Int smallLanes[3] = {0, 0, 0};           // E at the pixels of the block at (0, 0), modulo 2^32; of small triangles
+    EdgeFunction edge[3] = {};               // of the others,
+    Double largeLanes[3] = {0.0, 0.0, 0.0};  // and what to add to E at a block's upper left pixel
 };
 
 // The components of a triangle's corners, ready to be weighted.

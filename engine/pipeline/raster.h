@@ -3,20 +3,21 @@
 
 #include <cstdint>
 
-#include "pipeline/geometry.h"
+#include "pipeline/triangle_batch.h"
 
 namespace relief {
 
 // A block with at least one covered pixel.
 struct CoveredBlock
 {
-    const Triangle* triangle;
     std::uint16_t x, y;      // of its upper left pixel, in the target
-    std::uint32_t coverage;  // a bit per lane
+    std::uint16_t coverage;  // a bit per lane
+    std::uint16_t triangle;  // its place in the batch
 };
 
-// Appends the blocks of `clip` (a tile, or a part of one) in which the triangle covers a pixel to `out`, row by row,
-// and returns the new end. There must be room for every block of `clip` and one more.
-CoveredBlock* rasterise(const Triangle& triangle, const Rectangle& clip, CoveredBlock* out);
+// Which blocks of `clip` (a tile, or a part of one; the batch was set up for it) the triangles of a batch cover pixels
+// of: triangle by triangle, row by row, from `out` on. Returns the end. There must be room for every block of `clip`
+// for every triangle, and for one more.
+CoveredBlock* rasterise(const TriangleBatch& batch, const Rectangle& clip, CoveredBlock* out);
 
 }  // namespace relief

@@ -1,6 +1,8 @@
 #include "pipeline/setup.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 
 #include "lanes/double.h"
 #include "pipeline/clip.h"
@@ -13,9 +15,9 @@ namespace {
 // Up to kLanes triangles, corner by corner.
 struct TriangleLanes
 {
-    std::uint32_t vertex[3][kLanes];
     Int x[3], y[3];
     Float z[3], invW[3];
+    Int vertex[3];
 };
 
 struct Batch
@@ -25,41 +27,71 @@ struct Batch
     unsigned clipped = 0;    // bit per lane: has to go through the clipper
 };
 
-// Sorts out by codes, and loads the screen positions of the rest. Lanes that are not used hold triangle `first` again.
+// As std::max_element, but compilers make vector code of it.
+std::uint32_t largestOf(const std::uint32_t* numbers, std::uint32_t count)
+{
+    std::uint32_t largest = 0;
+    for (std::uint32_t i = 0; i < count; ++i) largest = std::max(largest, numbers[i]);
+    return largest;
+}
+
+// Sorts one triangle, a lane of the batch, by its vertices' codes.
+void sortOut(const DrawGeometry& draw, const std::uint32_t* index, unsigned lane, Batch& batch, Statistics& statistics)
+{
+    if (index[0] >= draw.vertexCount || index[1] >= draw.vertexCount || index[2] >= draw.vertexCount) {
+        ++statistics.droppedIndex;
+        return;
+    }
+    const unsigned c0 = draw.codes[index[0]], c1 = draw.codes[index[1]], c2 = draw.codes[index[2]];
+    const unsigned some = c0 | c1 | c2;
+    if ((some & (vertex_code::nan | vertex_code::infinite)) != 0) {
+        ++((some & vertex_code::nan) != 0 ? statistics.droppedNan : statistics.droppedInfinite);
+    } else if ((c0 & c1 & c2 & vertex_code::anyOutside) != 0) {
+        ++statistics.outside;
+    } else {
+        ((some & vertex_code::mustClip) != 0 ? batch.clipped : batch.unclipped) |= 1u << lane;
+    }
+}
+
+// Loads the corners of up to kLanes triangles. Lanes that are not used hold triangle `first` again, and vertex 0 stands
+// for those that do not exist.
 Batch gather(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, Statistics& statistics)
 {
+    constexpr std::uint32_t corners = 3 * kLanes;
+    const std::uint32_t* const indices = draw.indices + 3 * static_cast<std::size_t>(first);
+    const bool inRange = largestOf(indices, 3 * count) < draw.vertexCount;
+    const std::uint32_t* index = indices;
+    std::uint32_t replaced[corners];
+    if (count < kLanes || !inRange) {
+        for (std::uint32_t i = 0; i < corners; ++i) {
+            replaced[i] = indices[i < 3 * count ? i : i % 3];
+            if (replaced[i] >= draw.vertexCount) replaced[i] = 0;
+        }
+        index = replaced;
+    }
+
     Batch batch;
-    const std::byte* address[3][kLanes];
-    for (std::uint32_t i = 0; i < kLanes; ++i) {
-        const std::uint32_t* index = draw.indices + 3 * static_cast<std::size_t>(first + (i < count ? i : 0));
-        const bool inRange = index[0] < draw.vertexCount && index[1] < draw.vertexCount && index[2] < draw.vertexCount;
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = inRange ? index[k] : 0;
-            batch.lanes.vertex[k][i] = vertex;
-            address[k][i] = reinterpret_cast<const std::byte*>(draw.screen + vertex);
-        }
-        if (i >= count) continue;
-        if (!inRange) {
-            ++statistics.droppedIndex;
-            continue;
-        }
-        const unsigned c0 = draw.codes[index[0]], c1 = draw.codes[index[1]], c2 = draw.codes[index[2]];
-        const unsigned some = c0 | c1 | c2;
-        if ((some & (vertex_code::nan | vertex_code::infinite)) != 0) {
-            ++((some & vertex_code::nan) != 0 ? statistics.droppedNan : statistics.droppedInfinite);
-        } else if ((c0 & c1 & c2 & vertex_code::anyOutside) != 0) {
-            ++statistics.outside;
-        } else {
-            ((some & vertex_code::mustClip) != 0 ? batch.clipped : batch.unclipped) |= 1u << i;
-        }
+    unsigned some = 0;
+    for (std::uint32_t i = 0; i < corners; ++i) some |= draw.codes[index[i]];
+    if (inRange && some == 0) {
+        batch.unclipped = count < kLanes ? (1u << count) - 1 : kAllLanes;
+    } else {
+        for (std::uint32_t i = 0; i < count; ++i) sortOut(draw, indices + 3 * i, i, batch, statistics);
     }
     for (int k = 0; k < 3; ++k) {
+        std::int32_t vertex[kLanes];
+        const std::byte* address[kLanes];
+        for (int i = 0; i < kLanes; ++i) {
+            vertex[i] = static_cast<std::int32_t>(index[3 * i + k]);
+            address[i] = reinterpret_cast<const std::byte*>(draw.screen + index[3 * i + k]);
+        }
         native::IntVector word[4];
-        native::loadTransposed<native::FourWords>([&](int i) { return address[k][i]; }, word);
+        native::loadTransposed(address, word);
         batch.lanes.x[k] = Int(word[0]);
         batch.lanes.y[k] = Int(word[1]);
         batch.lanes.z[k] = asFloat(Int(word[2]));
         batch.lanes.invW[k] = asFloat(Int(word[3]));
+        batch.lanes.vertex[k] = Int::load(vertex);
     }
     return batch;
 }
@@ -102,41 +134,64 @@ unsigned coversSample(const TriangleLanes& t, const Rectangle& bounds)
     return ((firstX <= lastX) & (firstY <= lastY)).bits();
 }
 
-// Appends the lanes in `candidates` that survive culling.
 struct Survivors
 {
     unsigned facing;  // not culled by orientation
     unsigned kept;    // and with a sample
 };
 
+// Swaps corners 1 and 2 where the mask says so.
+void swapCorners(TriangleLanes& t, Mask where)
+{
+    const auto swap = [where](auto& one, auto& two) {
+        const auto old = one;
+        one = select(where, two, one);
+        two = select(where, old, two);
+    };
+    swap(t.x[1], t.x[2]);
+    swap(t.y[1], t.y[2]);
+    swap(t.z[1], t.z[2]);
+    swap(t.invW[1], t.invW[2]);
+    swap(t.vertex[1], t.vertex[2]);
+}
+
+// Appends the lanes in `kept`. A Triangle is these sixteen words; lanes that are not kept go where nobody reads.
+void append(const DrawGeometry& draw, const TriangleLanes& t, unsigned kept, TriangleChunk& chunk)
+{
+    const std::size_t size = chunk.triangles.size();
+    chunk.triangles.resize(size + static_cast<std::size_t>(std::popcount(kept)));
+    auto* out = reinterpret_cast<std::byte*>(chunk.triangles.data() + size);
+    alignas(64) std::byte nowhere[sizeof(Triangle)];
+    std::byte* address[4][kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+        const bool keep = (kept >> lane & 1u) != 0;
+        for (int part = 0; part < 4; ++part) address[part][lane] = (keep ? out : nowhere) + 16 * part;
+        out += keep ? sizeof(Triangle) : 0;
+    }
+    static_assert(offsetof(Triangle, y) == 12 && offsetof(Triangle, z) == 24 && offsetof(Triangle, invW) == 36 &&
+                  offsetof(Triangle, vertex) == 48 && offsetof(Triangle, drawIndex) == 60);
+    const auto bits = [](Float f) { return asInt(f).value; };
+    const native::IntVector word[16] = {
+        t.x[0].value,      t.x[1].value,      t.x[2].value,      t.y[0].value,
+        t.y[1].value,      t.y[2].value,      bits(t.z[0]),      bits(t.z[1]),
+        bits(t.z[2]),      bits(t.invW[0]),   bits(t.invW[1]),   bits(t.invW[2]),
+        t.vertex[0].value, t.vertex[1].value, t.vertex[2].value, Int(static_cast<std::int32_t>(draw.drawIndex)).value};
+    for (int part = 0; part < 4; ++part) native::storeTransposed(word + 4 * part, address[part]);
+}
+
+// Appends the lanes in `candidates` that survive culling.
 Survivors emit(const DrawGeometry& draw, const TriangleLanes& t, unsigned candidates, TriangleChunk& chunk)
 {
     const Orientation orientation = orient(t, draw.cull);
     const unsigned facing = candidates & orientation.kept;
     const unsigned kept = facing & coversSample(t, draw.bounds);
     if (kept == 0) return {facing, kept};
-
-    std::int32_t x[3][kLanes], y[3][kLanes];
-    float z[3][kLanes], invW[3][kLanes];
-    for (int k = 0; k < 3; ++k) {
-        t.x[k].store(x[k]);
-        t.y[k].store(y[k]);
-        t.z[k].store(z[k]);
-        t.invW[k].store(invW[k]);
-    }
-    for (unsigned rest = kept; rest != 0; rest &= rest - 1) {
-        const int lane = std::countr_zero(rest);
-        const bool swap = (orientation.swapped >> lane & 1u) != 0;
-        Triangle& triangle = chunk.triangles.emplace_back();
-        for (int k = 0; k < 3; ++k) {
-            const int from = swap && k != 0 ? 3 - k : k;
-            triangle.x[k] = x[from][lane];
-            triangle.y[k] = y[from][lane];
-            triangle.z[k] = z[from][lane];
-            triangle.invW[k] = invW[from][lane];
-            triangle.vertex[k] = t.vertex[from][lane];
-        }
-        triangle.drawIndex = draw.drawIndex;
+    if ((kept & orientation.swapped) != 0) {
+        TriangleLanes clockwise = t;
+        swapCorners(clockwise, Mask::fromBits(orientation.swapped));
+        append(draw, clockwise, kept, chunk);
+    } else {
+        append(draw, t, kept, chunk);
     }
     return {facing, kept};
 }
@@ -146,8 +201,8 @@ void clipAndSetUp(const DrawGeometry& draw, const TriangleLanes& t, int lane, Tr
                   Statistics& statistics)
 {
     const ViewportTransform transform(draw.viewport);
-    const glm::vec4 corners[3] = {draw.clip[t.vertex[0][lane]], draw.clip[t.vertex[1][lane]],
-                                  draw.clip[t.vertex[2][lane]]};
+    const auto vertexOf = [&](int k) { return static_cast<std::uint32_t>(t.vertex[k][lane]); };
+    const glm::vec4 corners[3] = {draw.clip[vertexOf(0)], draw.clip[vertexOf(1)], draw.clip[vertexOf(2)]};
     ClipVertex polygon[kMaxClippedVertices];
     const int count =
         clipTriangle(corners, {transform.inverseGuardX, transform.inverseGuardY, draw.depthClip}, polygon);
@@ -159,40 +214,43 @@ void clipAndSetUp(const DrawGeometry& draw, const TriangleLanes& t, int lane, Tr
 
     // New vertices get interpolated components; the triangle's own corners keep theirs.
     std::uint32_t vertex[kMaxClippedVertices];
-    const float* corner[3];
-    for (int k = 0; k < 3; ++k) corner[k] = componentsOf(draw, chunk, t.vertex[k][lane]);
+    const float* components[3];
+    for (int k = 0; k < 3; ++k) components[k] = componentsOf(draw, chunk, vertexOf(k));
     for (int i = 0; i < count; ++i) {
         const float(&w)[3] = polygon[i].weight;
-        vertex[i] = w[0] == 1.0f ? t.vertex[0][lane] : w[1] == 1.0f ? t.vertex[1][lane] : t.vertex[2][lane];
+        vertex[i] = vertexOf(w[0] == 1.0f ? 0 : w[1] == 1.0f ? 1 : 2);
         if (w[0] == 1.0f || w[1] == 1.0f || w[2] == 1.0f) continue;
         vertex[i] = kClippedVertex | static_cast<std::uint32_t>(chunk.clippedComponents.size());
         for (std::uint32_t c = 0; c < draw.componentCount; ++c) {
-            chunk.clippedComponents.push_back(w[0] * corner[0][c] + w[1] * corner[1][c] + w[2] * corner[2][c]);
+            chunk.clippedComponents.push_back(w[0] * components[0][c] + w[1] * components[1][c] +
+                                              w[2] * components[2][c]);
         }
     }
 
     // The fan (0, i + 1, i + 2): one triangle a lane, and at most eight of them.
     Survivors all{};
     for (int begin = 0; begin < count - 2; begin += kLanes) {
-        TriangleLanes fan;
-        // With values, because g++ 12 takes lanes that are set one by one for uninitialised.
-        float4 position[3] = {float4(0.0f), float4(0.0f), float4(0.0f)};
+        std::int32_t corner[3][kLanes];
+        float position[3][4][kLanes];
         unsigned used = 0;
         for (int i = 0; i < kLanes; ++i) {
             const int step = begin + i < count - 2 ? begin + i : begin;
             if (step == begin + i) used |= 1u << i;
             for (int k = 0; k < 3; ++k) {
                 const int p = k == 0 ? 0 : step + k;
-                fan.vertex[k][i] = vertex[p];
-                for (int c = 0; c < 4; ++c) position[k][c].set(i, polygon[p].position[c]);
+                corner[k][i] = static_cast<std::int32_t>(vertex[p]);
+                for (int c = 0; c < 4; ++c) position[k][c][i] = polygon[p].position[c];
             }
         }
+        TriangleLanes fan;
         for (int k = 0; k < 3; ++k) {
-            const ScreenLanes screen = transform.project(position[k]);
+            const auto lanes = [&](int c) { return Float::load(position[k][c]); };
+            const ScreenLanes screen = transform.project({lanes(0), lanes(1), lanes(2), lanes(3)});
             fan.x[k] = screen.x;
             fan.y[k] = screen.y;
             fan.z[k] = screen.z;
             fan.invW[k] = screen.invW;
+            fan.vertex[k] = Int::load(corner[k]);
         }
         const Survivors some = emit(draw, fan, used, chunk);
         all.facing |= some.facing;

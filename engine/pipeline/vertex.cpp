@@ -4,6 +4,23 @@
 
 namespace relief {
 
+namespace {
+
+// Four words per lane to the first `count` of an array's elements.
+template <class FourWords>
+void storeWords(FourWords* out, std::uint32_t count, const Int (&words)[4])
+{
+    static_assert(sizeof(FourWords) == 16);
+    const native::IntVector in[4] = {words[0].value, words[1].value, words[2].value, words[3].value};
+    FourWords nowhere;
+    std::byte* address[kLanes];
+    for (std::uint32_t i = 0; i < kLanes; ++i)
+        address[i] = reinterpret_cast<std::byte*>(i < count ? out + i : &nowhere);
+    native::storeTransposed(in, address);
+}
+
+}  // namespace
+
 void projectVertices(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, const float4& clip)
 {
     const ViewportTransform transform(draw.viewport);
@@ -32,12 +49,13 @@ void projectVertices(const DrawGeometry& draw, std::uint32_t first, std::uint32_
     flag(isNan, vertex_code::nan);
 
     const ScreenLanes screen = transform.project(clip);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const int lane = static_cast<int>(i);
-        draw.clip[first + i] = {clip.x[lane], clip.y[lane], clip.z[lane], clip.w[lane]};
-        draw.screen[first + i] = {screen.x[lane], screen.y[lane], screen.z[lane], screen.invW[lane]};
-        draw.codes[first + i] = static_cast<std::uint16_t>(codes[lane]);
-    }
+    const Int screenWords[4] = {screen.x, screen.y, asInt(screen.z), asInt(screen.invW)};
+    const Int clipWords[4] = {asInt(clip.x), asInt(clip.y), asInt(clip.z), asInt(clip.w)};
+    storeWords(draw.screen + first, count, screenWords);
+    storeWords(draw.clip + first, count, clipWords);
+    std::int32_t code[kLanes];
+    codes.store(code);
+    for (std::uint32_t i = 0; i < count; ++i) draw.codes[first + i] = static_cast<std::uint16_t>(code[i]);
 }
 
 }  // namespace relief

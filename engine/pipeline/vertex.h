@@ -26,31 +26,50 @@ constexpr bool meshHasAll(FieldList<Field...>)
 
 namespace detail {
 
+// Elements first ... first + count - 1 of a stream of float vectors, component by component. What the stream does not
+// have keeps its value.
+template <class Element>
+void readLanes(const std::vector<Element>& stream, std::uint32_t first, std::uint32_t count, Float (&lanes)[4])
+{
+    constexpr int components = static_cast<int>(sizeof(Element) / sizeof(float));
+    if (count == kLanes && first + kLanes < stream.size()) {
+        // Whole lanes, and an element after them: a word beyond an element can be read.
+        const std::byte* address[kLanes];
+        for (std::uint32_t i = 0; i < kLanes; ++i) address[i] = reinterpret_cast<const std::byte*>(&stream[first + i]);
+        native::IntVector word[4];
+        if constexpr (components == 2) {
+            native::loadTransposedPair(address, word);
+        } else {
+            native::loadTransposed(address, word);
+        }
+        for (int c = 0; c < components; ++c) lanes[c] = asFloat(Int(word[c]));
+        return;
+    }
+    for (int c = 0; c < components; ++c) {
+        float lane[kLanes];
+        lanes[c].store(lane);
+        for (std::uint32_t i = 0; i < count && first + i < stream.size(); ++i) lane[i] = stream[first + i][c];
+        lanes[c] = Float::load(lane);
+    }
+}
+
 // Reads one semantic of up to kLanes vertices. What the mesh does not have, for all or for some, reads as zeros.
 template <class Field>
 void fetch(const Mesh& mesh, std::uint32_t first, std::uint32_t count, Field& field)
 {
     static_assert(kMeshHas<Field>);
-    constexpr int components = kComponents<typename Field::Value>;
-    float lanes[components][kLanes] = {};
-    const auto read = [&](const auto& stream) {
-        constexpr int streamComponents = static_cast<int>(sizeof stream[0] / sizeof(float));
-        for (std::uint32_t i = 0; i < count && first + i < stream.size(); ++i) {
-            for (int c = 0; c < std::min(components, streamComponents); ++c) lanes[c][i] = stream[first + i][c];
-        }
-    };
+    Float lanes[4] = {0.0f, 0.0f, 0.0f, std::is_same_v<Field, POSITION> ? 1.0f : 0.0f};
     if constexpr (std::is_same_v<Field, POSITION>) {
-        std::fill_n(lanes[3], kLanes, 1.0f);
-        read(mesh.positions);
+        readLanes(mesh.positions, first, count, lanes);
     } else if constexpr (std::is_same_v<Field, NORMAL>) {
-        read(mesh.normals);
+        readLanes(mesh.normals, first, count, lanes);
     } else if constexpr (std::is_same_v<Field, TANGENT>) {
-        read(mesh.tangents);
+        readLanes(mesh.tangents, first, count, lanes);
     } else {
-        read(mesh.uvs);
+        readLanes(mesh.uvs, first, count, lanes);
     }
-    for (int c = 0; c < components; ++c)
-        component(static_cast<typename Field::Value&>(field), c) = Float::load(lanes[c]);
+    for (int c = 0; c < kComponents<typename Field::Value>; ++c)
+        component(static_cast<typename Field::Value&>(field), c) = lanes[c];
 }
 
 }  // namespace detail
