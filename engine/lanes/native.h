@@ -56,22 +56,19 @@ template <class Words, class Address>
     words.transposed(out);
 }
 
-// The same, and `far` gets what lies `distance` bytes on. Lane by lane, so that an address is needed only once.
-template <class Words, class Address>
-[[gnu::always_inline]] inline void loadTransposed(const Address& address, std::size_t distance, IntVector* near,
-                                                  IntVector* far)
+// From two addresses per lane, lane by lane: what both are made of, such as an index, is then read only once.
+template <class Words, class Address, class OtherAddress>
+[[gnu::always_inline]] inline void loadTransposed(const Address& address, const OtherAddress& other, IntVector* out,
+                                                  IntVector* otherOut)
 {
-    Words first, second;
+    Words words, otherWords;
     forEachQuad([&]<int quad>() __attribute__((always_inline)) {
-        const std::byte* a = address(4 * quad);
-        const std::byte* b = address(4 * quad + 1);
-        const std::byte* c = address(4 * quad + 2);
-        const std::byte* d = address(4 * quad + 3);
-        first.template add<quad>(a, b, c, d);
-        second.template add<quad>(a + distance, b + distance, c + distance, d + distance);
+        constexpr int a = 4 * quad, b = a + 1, c = a + 2, d = a + 3;
+        words.template add<quad>(address(a), address(b), address(c), address(d));
+        otherWords.template add<quad>(other(a), other(b), other(c), other(d));
     });
-    first.transposed(near);
-    second.transposed(far);
+    words.transposed(out);
+    otherWords.transposed(otherOut);
 }
 
 inline void loadTransposed(const std::byte* const* address, IntVector out[4])

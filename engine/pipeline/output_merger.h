@@ -114,12 +114,17 @@ float4 blendColors(const float4& source, const float4& destination)
 // pixels had one.
 inline int sanitizeColor(float4& color, Mask live)
 {
+    // All exponent bits are set in NaN and infinities, and in nothing that is made of numbers below 2.
+    constexpr std::int32_t exponent = 0x7f800000;
+    const Int together = asInt(color.x) | asInt(color.y) | asInt(color.z) | asInt(color.w);
+    if (none(live & ((together & exponent) == exponent))) [[likely]]
+        return 0;
+
     const float largest = std::numeric_limits<float>::max();
     Mask finite = true;
     for (int c = 0; c < 4; ++c) finite &= abs(color[c]) <= largest;
     const Mask invalid = live & !finite;
-    if (none(invalid)) [[likely]]
-        return 0;
+    if (none(invalid)) return 0;
     for (int c = 0; c < 4; ++c) {
         color[c] = select(isnan(color[c]), Float(0.0f), clamp(color[c], -largest, largest));
     }

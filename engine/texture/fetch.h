@@ -17,23 +17,25 @@ namespace relief {
 namespace detail {
 
 // One texel index per lane, in memory: what the loads take their addresses from.
-template <int bytesPerTexel>
-class TexelAddresses
+class TexelIndices
 {
 public:
-    TexelAddresses(const std::byte* texels, Int index) : base(texels)
+    explicit TexelIndices(Int index)
     {
         index.store(indices);
         asm("" : "+m"(indices));  // or the compiler would take the lanes out of the register, one shuffle each
     }
 
-    const std::byte* operator()(int lane) const
+    // Where each lane's texel is, as a function of the lane.
+    template <int bytesPerTexel>
+    auto from(const std::byte* texels) const
     {
-        return base + std::size_t{static_cast<std::uint32_t>(indices[lane])} * bytesPerTexel;
+        return [this, texels](int lane) __attribute__((always_inline)) {
+            return texels + std::size_t{static_cast<std::uint32_t>(indices[lane])} * bytesPerTexel;
+        };
     }
 
 private:
-    const std::byte* base;
     alignas(64) std::int32_t indices[kLanes];
 };
 
@@ -73,7 +75,8 @@ struct FetchRgba8
     static float4 nearest(const MipLevel& level, Int index)
     {
         native::IntVector words[2];
-        native::loadTransposed<native::TwoWords>(detail::TexelAddresses<kBytes>(level.texels(), index), words);
+        const detail::TexelIndices indices(index);
+        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(level.texels()), words);
         const Int rgba(words[0]);
         const auto channel = [rgba](int shift) { return Float((rgba >> shift & 255) << kSubtexelBits); };
         return {channel(0), channel(8), channel(16), channel(24)};
@@ -86,8 +89,9 @@ struct FetchRgba8
     [[gnu::always_inline]] static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
     {
         native::IntVector lower[2], upper[2];
-        native::loadTransposed<native::TwoWords>(detail::TexelAddresses<kBytes>(level.texels(), index),
-                                                 level.rowBytes(), lower, upper);
+        const detail::TexelIndices indices(index);
+        const std::byte* texels = level.texels();
+        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(texels), indices.from<kBytes>(texels + level.rowBytes()), lower, upper);
         const Int weights =
             (fx << 16) + (kSubtexels - fx);  // of the left texel in the low half, of the right one above
         const Row a = alongRow(lower, weights), b = alongRow(upper, weights);
@@ -131,7 +135,8 @@ struct FetchRgba16
     static float4 nearest(const MipLevel& level, Int index)
     {
         native::IntVector words[2];
-        native::loadTransposed<native::TwoWords>(detail::TexelAddresses<kBytes>(level.texels(), index), words);
+        const detail::TexelIndices indices(index);
+        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(level.texels()), words);
         const Int rg(words[0]), ba(words[1]);
         return {detail::biasedHalf(rg) - detail::kBias, detail::biasedHalf(shiftRightLogical(rg, 16)) - detail::kBias,
                 detail::biasedHalf(ba) - detail::kBias, detail::biasedHalf(shiftRightLogical(ba, 16)) - detail::kBias};
@@ -140,8 +145,9 @@ struct FetchRgba16
     [[gnu::always_inline]] static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
     {
         native::IntVector lower[4], upper[4];
-        native::loadTransposed<native::FourWords>(detail::TexelAddresses<kBytes>(level.texels(), index),
-                                                  level.rowBytes(), lower, upper);
+        const detail::TexelIndices indices(index);
+        const std::byte* texels = level.texels();
+        native::loadTransposed<native::FourWords>(indices.from<kBytes>(texels), indices.from<kBytes>(texels + level.rowBytes()), lower, upper);
         const Float tx = Float(fx) * (1.0f / kSubtexels), ty = Float(fy) * (1.0f / kSubtexels);
         return detail::mix(alongRow(lower, tx), alongRow(upper, tx), ty);
     }
@@ -198,7 +204,8 @@ private:
     static float4 load(const std::byte* texels, Int index)
     {
         native::IntVector words[4];
-        native::loadTransposed<native::FourWords>(detail::TexelAddresses<kBytes>(texels, index), words);
+        const detail::TexelIndices indices(index);
+        native::loadTransposed<native::FourWords>(indices.from<kBytes>(texels), words);
         return {asFloat(Int(words[0])), asFloat(Int(words[1])), asFloat(Int(words[2])), asFloat(Int(words[3]))};
     }
 };

@@ -132,37 +132,6 @@ inline int likelyLevel(const sampler2D& s, const Texture& texture, Float square)
     return std::clamp(level, 0, texture.levelCount() - 1);
 }
 
-// The average of the taps, which lie evenly on the footprint's axis: tap i of n at (2 i + 1 - n) / 2n of it. It is kept
-// as a running mean, mean += (tap - mean) / (i + 1): equal taps give exactly themselves.
-float4 sampleAnisotropic(const sampler2D& s, const Texture& texture, Float u, Float v,
-                         const AnisotropicFootprint& footprint, Float bias)
-{
-    const Int fixed = fixedLevel(s, texture, footprint.lod + bias);
-    countSample(s);
-    countLevels(s, (fixed == 0).bits(), ((fixed & (kLodOne - 1)) == 0).bits());
-    const glm::vec4& size = texture.texelSize();
-    const float2 axis = {footprint.axis.x * size.x, footprint.axis.y * size.y};
-    const Float perTap = 0.5f / footprint.taps;
-    const int guess = fixed[0] >> kLodBits;
-
-    float4 mean;
-    for (int i = 0; i < 16; ++i) {
-        const Mask hasTap = footprint.taps > static_cast<float>(i);
-        const unsigned lanes = hasTap.bits() & wantedLanes();
-        if (lanes == 0) break;
-        fetchCounters.taps += countOf(lanes & activeLanes);
-        const Float along = (static_cast<float>(2 * i + 1) - footprint.taps) * perTap;
-        const float4 tap = sampleMipChain(s, texture, u + axis.x * along, v + axis.y * along, fixed, guess);
-        if (i == 0) {
-            mean = tap;
-        } else {
-            const float share = 1.0f / static_cast<float>(i + 1);
-            for (int c = 0; c < 4; ++c) mean[c] = select(hasTap, mean[c] + (tap[c] - mean[c]) * share, mean[c]);
-        }
-    }
-    return mean;
-}
-
 // The bias of the sampler and of a call, within D3D's limits (7.18.10).
 inline Float limitBias(const sampler2D& s, Float bias)
 {
@@ -190,7 +159,7 @@ inline float2 toTexels(const Texture& texture, const float2& change)
 }
 
 // The result where the texture is the same everywhere.
-float4 sampleConstant(const sampler2D& s, const Texture& texture)
+[[gnu::noinline]] float4 sampleConstant(const sampler2D& s, const Texture& texture)
 {
     countSample(s);
     countLevels(s, kAllLanes, kAllLanes);
@@ -209,29 +178,94 @@ struct Gradients
     float2 dx, dy;
 };
 
-// `gradients` is a function: it is called only where mip levels are wanted. `bias` is without the sampler's own, a
-// float or one per lane.
-template <class Bias, class Function>
-[[gnu::always_inline]] inline float4 sampleWith(const sampler2D& s, Float u, Float v, Bias bias, Function gradients)
+inline Gradients gradientsOf(Float u, Float v)
+{
+    return {{ddx(u), ddx(v)}, {ddy(u), ddy(v)}};
+}
+
+// Magnified as a whole: no logarithm is needed to know that level 0 is wanted, with one sample.
+template <class Bias>
+inline bool isMagnified(const sampler2D& s, Float square, Bias wholeBias)
+{
+    const unsigned wanted = wantedLanes();
+    return s.minLod <= 0.0f && allAtMost(square, 1.0f, wanted) && allAtMost(wholeBias, 0.0f, wanted);
+}
+
+// `bias` is without the sampler's own, a float or one per lane.
+template <class Bias>
+[[gnu::always_inline]] inline float4 sampleIsotropicBy(const Gradients& change, Bias bias, const sampler2D& s,
+                                                       const Texture& texture, Float u, Float v)
+{
+    const Float square = longestSquare(toTexels(texture, change.dx), toTexels(texture, change.dy));
+    const Bias wholeBias = limitBias(s, bias);
+    if (isMagnified(s, square, wholeBias)) return sampleFinestCounted(s, texture, u, v);
+    return sampleIsotropic(s, texture, u, v, limitedIsotropicLevel(square) + wholeBias,
+                           likelyLevel(s, texture, square));
+}
+
+// The average of the taps, which lie evenly on the footprint's axis: tap i of n at (2 i + 1 - n) / 2n of it. It is kept
+// as a running mean, mean += (tap - mean) / (i + 1): equal taps give exactly themselves.
+[[gnu::noinline]] float4 sampleAnisotropic(const sampler2D& s, const Texture& texture, Float u, Float v,
+                                           const Gradients& change, Float bias)
+{
+    const float2 dX = toTexels(texture, change.dx), dY = toTexels(texture, change.dy);
+    const Float wholeBias = limitBias(s, bias);
+    if (isMagnified(s, longestSquare(dX, dY), wholeBias)) return sampleFinestCounted(s, texture, u, v);
+
+    const auto limit = static_cast<float>(std::min(s.maxAnisotropy, 16));
+    const AnisotropicFootprint footprint = anisotropicFootprint(dX, dY, limit);
+    const Int fixed = fixedLevel(s, texture, footprint.lod + wholeBias);
+    countSample(s);
+    countLevels(s, (fixed == 0).bits(), ((fixed & (kLodOne - 1)) == 0).bits());
+    const glm::vec4& size = texture.texelSize();
+    const float2 axis = {footprint.axis.x * size.x, footprint.axis.y * size.y};
+    const Float perTap = 0.5f / footprint.taps;
+    const int guess = fixed[0] >> kLodBits;
+
+    float4 mean;
+    for (int i = 0; i < 16; ++i) {
+        const Mask hasTap = footprint.taps > static_cast<float>(i);
+        const unsigned lanes = hasTap.bits() & wantedLanes();
+        if (lanes == 0) break;
+        fetchCounters.taps += countOf(lanes & activeLanes);
+        const Float along = (static_cast<float>(2 * i + 1) - footprint.taps) * perTap;
+        const float4 tap = sampleMipChain(s, texture, u + axis.x * along, v + axis.y * along, fixed, guess);
+        if (i == 0) {
+            mean = tap;
+        } else {
+            const float share = 1.0f / static_cast<float>(i + 1);
+            for (int c = 0; c < 4; ++c) mean[c] = select(hasTap, mean[c] + (tap[c] - mean[c]) * share, mean[c]);
+        }
+    }
+    return mean;
+}
+
+[[gnu::noinline]] float4 sampleAnisotropicImplicit(const sampler2D& s, const Texture& texture, Float u, Float v)
+{
+    return sampleAnisotropic(s, texture, u, v, gradientsOf(u, v), 0.0f);
+}
+
+inline bool usesMipLevels(const sampler2D& s, const Texture& texture)
+{
+    return s.mipmaps && texture.levelCount() > 1;
+}
+
+// With the coordinate's changes at hand.
+template <class Bias>
+float4 sampleBy(const Gradients& change, Bias bias, const sampler2D& s, Float u, Float v)
 {
     const Texture& texture = textureOf(s);
     if (isConstant(s, texture)) return sampleConstant(s, texture);
-    if (!s.mipmaps || texture.levelCount() == 1) return sampleFinestCounted(s, texture, u, v);
-    const Gradients change = gradients();
-    const float2 dX = toTexels(texture, change.dx), dY = toTexels(texture, change.dy);
+    if (!usesMipLevels(s, texture)) return sampleFinestCounted(s, texture, u, v);
+    if (isAnisotropic(s)) return sampleAnisotropic(s, texture, u, v, change, bias);
+    return sampleIsotropicBy(change, bias, s, texture, u, v);
+}
 
-    // Magnified as a whole: no logarithm is needed to know that level 0 is wanted, with one sample.
-    const Float square = longestSquare(dX, dY);
-    const Bias wholeBias = limitBias(s, bias);
-    const bool magnified = allAtMost(square, 1.0f, wantedLanes()) && allAtMost(wholeBias, 0.0f, wantedLanes());
-    if (magnified && s.minLod <= 0.0f) return sampleFinestCounted(s, texture, u, v);
-
-    if (isAnisotropic(s)) {
-        const auto limit = static_cast<float>(std::min(s.maxAnisotropy, 16));
-        return sampleAnisotropic(s, texture, u, v, anisotropicFootprint(dX, dY, limit), wholeBias);
-    }
-    return sampleIsotropic(s, texture, u, v, limitedIsotropicLevel(square) + wholeBias,
-                           likelyLevel(s, texture, square));
+// No texture is white.
+[[gnu::noinline]] float4 sampleWhite(sampler2D s, Float u, Float v)
+{
+    s.texture = &Texture::white();
+    return detail::sampleImplicit(s, u, v);
 }
 
 Float impliedLevel(const sampler2D& s, const Texture& texture, const float2& uv)
@@ -245,26 +279,32 @@ Float impliedLevel(const sampler2D& s, const Texture& texture, const float2& uv)
 
 namespace detail {
 
+// tex2D itself. Every call is the last thing that it does, so that u and v stay in registers.
 float4 sampleImplicit(const sampler2D& s, Float u, Float v)
 {
-    return sampleWith(s, u, v, 0.0f, [u, v] { return Gradients{{ddx(u), ddx(v)}, {ddy(u), ddy(v)}}; });
+    if (s.texture == nullptr) return sampleWhite(s, u, v);
+    const Texture& texture = *s.texture;
+    if (isConstant(s, texture)) return sampleConstant(s, texture);
+    if (!usesMipLevels(s, texture)) return sampleFinestCounted(s, texture, u, v);
+    if (isAnisotropic(s)) return sampleAnisotropicImplicit(s, texture, u, v);
+    return sampleIsotropicBy(gradientsOf(u, v), 0.0f, s, texture, u, v);
 }
 
 float4 sampleBias(const sampler2D& s, Float u, Float v, Float bias)
 {
-    return sampleWith(s, u, v, bias, [u, v] { return Gradients{{ddx(u), ddx(v)}, {ddy(u), ddy(v)}}; });
+    return sampleBy(gradientsOf(u, v), bias, s, u, v);
 }
 
 float4 sampleGradients(const sampler2D& s, Float u, Float v, const float2& dx, const float2& dy)
 {
-    return sampleWith(s, u, v, 0.0f, [&dx, &dy] { return Gradients{dx, dy}; });
+    return sampleBy({dx, dy}, 0.0f, s, u, v);
 }
 
 float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod)
 {
     const Texture& texture = textureOf(s);
     if (isConstant(s, texture)) return sampleConstant(s, texture);
-    if (!s.mipmaps || texture.levelCount() == 1) return sampleFinestCounted(s, texture, u, v);
+    if (!usesMipLevels(s, texture)) return sampleFinestCounted(s, texture, u, v);
     return sampleIsotropic(s, texture, u, v, lod + limitBias(s, 0.0f), 0);
 }
 
