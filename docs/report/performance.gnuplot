@@ -11,7 +11,6 @@ set linetype 6 linecolor rgb "#222222"
 set grid
 set logscale xy
 set key left top
-set autoscale xfix
 set format x "10^{%L}"
 set format y "%g"
 
@@ -32,8 +31,8 @@ set multiplot layout 5, 2
 do for [n = 1:4] {
     scaling = word(scalings, n)
     set xlabel word(xlabels, n)
-    if (scaling eq "lights") { set format x "%g"; set xtics (1, 4, 16, 64, 256) }
-    if (scaling eq "texture") { set logscale x 2; set xtics (64, 256, 1024, 4096, 16384) }
+    if (scaling eq "lights") { set format x "%g"; set xtics (1, 4, 16, 64, 256); set xrange [0.8:320] }
+    if (scaling eq "texture") { set logscale x 2; set xtics (64, 256, 1024, 4096, 16384); set xrange [48:22000] }
     set ylabel "ms a frame"
     plot for [c = 1:words(curves(scaling))] "performance.csv" \
         using (of_curve(c, "x")):(of_curve(c, "median_ms")):(of_curve(c, "lower_ms")):(of_curve(c, "upper_ms")) \
@@ -48,6 +47,8 @@ do for [n = 1:4] {
 unset logscale
 unset format
 set xtics 1
+set autoscale xfix
+set xrange [*:*]
 set yrange [0:]
 set xlabel "threads"
 set key outside right top font ",10"

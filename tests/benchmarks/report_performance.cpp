@@ -203,7 +203,7 @@ std::string document(const Table& table, const ReportOptions& options)
         ", where nothing else is said\n\n"
         "Every point is drawn by " +
         std::to_string(options.rounds) +
-        " processes of its own; the points take turns. A process draws a first frame, and then three "
+        " processes of its own; the points take turns. A process draws a first frame, and then nine "
         "more, or fewer once these have taken a second.\n\n"
         "- ms, quartiles: of all frames but the first ones\n"
         "- first frame: the median; it allocates memory and builds mip levels\n"

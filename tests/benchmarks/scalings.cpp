@@ -16,7 +16,7 @@ namespace {
 using samples::Size;
 
 constexpr glm::vec4 kBackground{0.1f, 0.1f, 0.1f, 1.0f};
-constexpr int kFrames = 3;
+constexpr int kFrames = 9;
 constexpr double kEnough = 1.0;  // seconds of frames after the first, for which no more are drawn
 
 Expected<Recorded> recorded(std::unique_ptr<SceneData> data)

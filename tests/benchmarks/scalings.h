@@ -42,7 +42,7 @@ struct Drawn
     int levelsBuilt = 0;  // of the texture
 };
 
-// Draws the first frame and three more, or fewer once these have taken a second.
+// Draws the first frame and nine more, or fewer once these have taken a second.
 Expected<Drawn> drawPoint(const Point& point);
 
 }  // namespace relief::benchmarks
