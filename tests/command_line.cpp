@@ -568,3 +568,61 @@ TEST_CASE("command line: report triplanar writes a text, a table and a plot")
     checkRefused(folder.path, "report triplanar --size 64x36 --counted-program nothing", {"nothing"});
     checkRefused(folder.path, "report triplanar --size 64x36 --rounds 1 --output /proc/r", {"/proc/r"});
 }
+
+TEST_CASE("command line: report performance writes a text, a table and a plot")
+{
+    const TemporaryFolder folder;
+    checkRefused(folder.path, "report performance --part 0", {"--part"});
+    checkRefused(folder.path, "report performance --part 2", {"--part"});
+    checkRefused(folder.path, "report triplanar --part 0.5", {"--part"});
+#if !defined(RELIEF_SHORT_TESTS)
+    const std::string small = "report performance --size 64x36 --rounds 1 --part 1e-9";
+    const Outcome outcome = run(folder.path, small + " --output r");
+    for (const std::string missing : {"install gnuplot-nox", "-DRELIEF_BENCHMARKS=ON"}) {
+        if (outcome.err.find(missing) == std::string::npos) continue;
+        CHECK(outcome.code == 2);
+        MESSAGE("skipped: " << outcome.err);
+        return;
+    }
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out == "r/performance.md, .csv and .svg\n");
+    CHECK(contents(folder.path / "r/performance.svg").find("</svg>") != std::string::npos);
+    const std::string text = contents(folder.path / "r/performance.md");
+    CHECK(
+        text.starts_with("# How cost grows\n\n    ./relief report performance --size 64x36 --rounds 1 --part 1e-09\n"));
+    for (const std::string part : {"processor: ", "compiler: ", "commit: ", "## Pixels", "## Triangles", "## Lights",
+                                   "## The side of a texture", "## Threads", "| stage_1.25 | 1 |"})
+        CHECK(text.find(part) != std::string::npos);
+
+    // Two points for each curve; of the threads, each scene with every number.
+    std::map<std::string, int> rows;
+    std::stringstream table(contents(folder.path / "r/performance.csv"));
+    std::string line;
+    std::getline(table, line);
+    CHECK(line.starts_with("scaling,curve,x,"));
+    while (std::getline(table, line)) {
+        CAPTURE(line);
+        std::vector<std::string> cells;
+        std::stringstream words(line + ",");
+        for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
+        REQUIRE(cells.size() == 16);
+        CHECK(std::stoi(cells[6]) >= 1);    // frames: at least one of each round
+        CHECK(std::stod(cells[8]) > 0.0);   // ms
+        CHECK(std::stod(cells[11]) > 1.0);  // MiB
+        CHECK(cells[15].empty() == (cells[0] != "threads"));
+        if (cells[0] == "threads" && cells[2] == "1") CHECK(cells[15] == "1.000");
+        ++rows[cells[0]];
+    }
+    CHECK(rows["pixels"] == 2);
+    CHECK(rows["triangles"] == 2);
+    CHECK(rows["lights"] == 6);
+    CHECK(rows["texture"] == 4);
+    CHECK(rows["threads"] >= 11);
+    CHECK(rows["threads"] % 11 == 0);
+
+    checkRefused(folder.path, "report performance --size big", {"big"});
+    checkRefused(folder.path, "report performance --counted-program nothing", {"--counted-program"});
+    checkRefused(folder.path, small, {"/nowhere"}, "RELIEF_ASSETS=/nowhere");
+#endif
+}

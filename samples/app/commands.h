@@ -54,9 +54,11 @@ Expected<Size> parseSize(const std::string& text);
 // What `report` measures, and where the files go.
 struct ReportOptions
 {
-    std::string name, output = "docs/report", size = "960x540";
-    int rounds = 31;
+    std::string name, output = "docs/report";
+    std::string size;            // empty: the report's own
+    int rounds = 0;              // 0: the report's own
     std::string countedProgram;  // empty: instructions are not counted
+    double part = 1.0;           // of `performance`: how far its scalings go, as a part of the whole way
 };
 
 Expected<void> list(bool json);

@@ -17,9 +17,22 @@ struct Report
 {
     const char* name;
     Expected<void> (*write)(const ReportOptions&);
+    const char* size;  // unless told otherwise, as the number of rounds
+    int rounds;
 };
 
-constexpr Report kReports[] = {{"triplanar", reportTriplanar}};
+constexpr Report kReports[] = {{"triplanar", reportTriplanar, "960x540", 31},
+                               {"performance", reportPerformance, "1920x1080", 5}};
+
+Expected<const Report*> findReport(const std::string& name)
+{
+    std::string names;
+    for (const Report& r : kReports) {
+        if (name == r.name) return &r;
+        names += (names.empty() ? "" : ", ") + std::string(r.name);
+    }
+    return fail("report " + name + ": there is no such report; there is " + names);
+}
 
 std::string processor()
 {
@@ -54,10 +67,11 @@ std::string commit()
 
 std::string reportHead(const std::string& title, const ReportOptions& options)
 {
-    const ReportOptions usual;
+    const Report& usual = **findReport(options.name);
     std::string command = "./relief report " + options.name;
     if (options.size != usual.size) command += " --size " + options.size;
     if (options.rounds != usual.rounds) command += " --rounds " + std::to_string(options.rounds);
+    if (options.part < 1.0) command += " --part " + text("%g", options.part);
     return "# " + title + "\n\n    " + command + "\n\n- processor: " + processor() +
            "\n- lanes: " + std::to_string(kLanes) + "\n- compiler: " + compiler() + "\n- commit: " + commit() + "\n";
 }
@@ -101,12 +115,12 @@ void showProgress(const std::string& line)
 
 Expected<void> report(const ReportOptions& options)
 {
-    std::string names;
-    for (const Report& r : kReports) {
-        if (options.name == r.name) return r.write(options);
-        names += (names.empty() ? "" : ", ") + std::string(r.name);
-    }
-    return fail("report " + options.name + ": there is no such report; there is " + names);
+    const Expected<const Report*> found = findReport(options.name);
+    if (!found) return tl::unexpected(found.error());
+    ReportOptions complete = options;
+    if (complete.size.empty()) complete.size = (*found)->size;
+    if (complete.rounds == 0) complete.rounds = (*found)->rounds;
+    return (*found)->write(complete);
 }
 
 }  // namespace relief::samples

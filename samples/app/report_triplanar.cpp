@@ -367,6 +367,7 @@ std::string preamble(const Table& methods, const ReportOptions& options)
 
 Expected<void> reportTriplanar(const ReportOptions& options)
 {
+    if (options.part < 1.0) return fail("report triplanar: it does not take --part");
     const Expected<void> canPlot = checkPlotting();
     if (!canPlot) return canPlot;
     const Expected<Table> methods = measured("methods", kMethods, options);

@@ -4,8 +4,6 @@
 // Times and pictures come from two processes. Mesa saves time when it samples textures: weights of 8 bits, one level of
 // detail for a quad, and a rough logarithm in it. It is timed like that, as users get it, but the pictures are compared
 // without, so that a difference means that the two drew something else.
-#include <sys/wait.h>
-#include <unistd.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include <cstdlib>
 
 #include "agreement.h"
+#include "child_process.h"
 #include "commands.h"
 #include "cost.h"
 #include "first_frame.h"
@@ -203,43 +202,7 @@ Expected<void> drawMesa(const Row& row)
     return {};
 }
 
-// --- two processes ---
-
-void writeAll(int file, const std::string& text)
-{
-    for (std::size_t done = 0; done < text.size();) {
-        const ssize_t written = write(file, text.data() + done, text.size() - done);
-        if (written <= 0) return;
-        done += static_cast<std::size_t>(written);
-    }
-}
-
-// What `work` returns in a process of its own. To be called while this one has a single thread.
-template <class Work>
-Expected<std::string> inChild(const Work& work)
-{
-    int ends[2];
-    if (pipe(ends) != 0) return fail("bench --peer: no pipe to be had");
-    const pid_t child = fork();
-    if (child < 0) return fail("bench --peer: no second process to be had");
-    if (child == 0) {
-        close(ends[0]);
-        const Expected<std::string> result = work();
-        writeAll(ends[1], result ? "+" + *result : "-" + result.error().message);
-        _exit(0);
-    }
-    close(ends[1]);
-    std::string text;
-    char part[4096];
-    for (ssize_t length; (length = read(ends[0], part, sizeof part)) > 0;) {
-        text.append(part, static_cast<std::size_t>(length));
-    }
-    close(ends[0]);
-    waitpid(child, nullptr, 0);
-    if (text.empty()) return fail("bench --peer: the process that compares the pictures ended early");
-    if (text[0] == '-') return fail(text.substr(1));
-    return text.substr(1);
-}
+// --- the command ---
 
 Expected<Setting> parse(const PeerOptions& options)
 {
@@ -308,7 +271,7 @@ Expected<void> benchPeer(const PeerOptions& options)
     setenv("EGL_LOG_LEVEL", "fatal", 1);
     unsetenv("GALLIVM_PERF");
     if (!options.alone.empty()) return drawAlone(*setting, options.alone == "mesa");
-    const Expected<std::string> compared = inChild([&] {
+    const Expected<benchmarks::ChildResult> compared = benchmarks::inChild("bench --peer", [&] {
         setenv("GALLIVM_PERF", "no_aos_sampling,no_quad_lod", 1);
         setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);  // what it holds was compiled without that
         return comparePictures(*setting);
@@ -330,9 +293,9 @@ Expected<void> benchPeer(const PeerOptions& options)
         const Quartiles ratio = ratioOf(*times);
         char ratios[64];
         std::snprintf(ratios, sizeof ratios, "%.2f (%.2f ... %.2f)", ratio.median, ratio.lower, ratio.upper);
-        const std::size_t end = compared->find('\n', line);
+        const std::size_t end = compared->text.find('\n', line);
         std::printf("%-18s %8.3f %8.3f  %-25s %s\n", row.name.c_str(), quartiles(times->relief).median * 1e3,
-                    quartiles(times->mesa).median * 1e3, ratios, compared->substr(line, end - line).c_str());
+                    quartiles(times->mesa).median * 1e3, ratios, compared->text.substr(line, end - line).c_str());
         std::fflush(stdout);
         line = end + 1;
         logarithms += std::log(ratio.median);

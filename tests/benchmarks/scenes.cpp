@@ -80,6 +80,17 @@ struct TextureFragmentProgram
     float4 operator()(UvInterpolators i) const { return tex2D(mainTex, i.uv); }
 };
 
+struct FinestLevelFragmentProgram
+{
+    sampler2D mainTex;
+
+    float4 operator()(UvInterpolators i) const
+    {
+        const float2 uv = i.uv;
+        return tex2Dlod(mainTex, float4(uv.x, uv.y, 0, 0));
+    }
+};
+
 struct TerrainVertexProgram
 {
     ObjectTransform object;
@@ -175,35 +186,6 @@ Mesh makeGrid(std::uint32_t cells)
     return mesh;
 }
 
-std::unique_ptr<SceneData> plane(Frame& frame, int width, int height, int maxAnisotropy)
-{
-    auto data = std::make_unique<SceneData>();
-    data->mesh = makeGrid(16);
-    data->texture.emplace(testTexture());
-    data->maxAnisotropy = maxAnisotropy;
-    data->tiling = 400.0f;
-    const samples::Camera camera = {.position = {0, 1, 0}, .target = {0, 1, 1}, .fieldOfView = 60, .farPlane = 1000};
-    data->clipFromWorld = clipFromWorld(camera, width, height);
-    data->worldFromObject = samples::rotationX(90) * samples::scaling(glm::vec3(800));
-    frame.draw(data->mesh, PlaneVertexProgram{{data->clipFromWorld, data->worldFromObject}, data->tiling},
-               TextureFragmentProgram{{.texture = &*data->texture, .maxAnisotropy = maxAnisotropy}});
-    return data;
-}
-
-std::unique_ptr<SceneData> millionTriangles(Frame& frame, int width, int height)
-{
-    auto data = std::make_unique<SceneData>();
-    data->mesh = makeTerrain(1000, 500);
-    const samples::Camera camera = {.position = {0, 0.75f, -0.6f}, .target = {0, 0, -0.02f}, .fieldOfView = 50};
-    data->clipFromWorld = clipFromWorld(camera, width, height);
-    data->worldFromObject = samples::scaling({1.6f, 1, 1});
-    data->lightDir = {0.40824829f, 0.81649658f, -0.40824829f};
-    data->color = {0.8f, 0.7f, 0.5f};
-    frame.draw(data->mesh, TerrainVertexProgram{{data->clipFromWorld, data->worldFromObject}},
-               LambertFragmentProgram{broadcast(data->lightDir), broadcast(data->color)});
-    return data;
-}
-
 // Each triangle has corners in a square of 20 pixels, so that its sides are some 10 pixels long; it has one depth, and
 // one colour as its uv. The mesh is in clip space.
 std::unique_ptr<SceneData> smallTriangles(Frame& frame, int width, int height)
@@ -231,8 +213,44 @@ std::unique_ptr<SceneData> smallTriangles(Frame& frame, int width, int height)
     return data;
 }
 
-std::unique_ptr<SceneData> stage(Frame& frame, int width, int height, const char* name,
-                                 const std::vector<std::string>& settings = {})
+}  // namespace
+
+std::unique_ptr<SceneData> recordPlane(Frame& frame, int width, int height, Texture texture, PlaneFetch fetch)
+{
+    auto data = std::make_unique<SceneData>();
+    data->mesh = makeGrid(16);
+    data->texture.emplace(std::move(texture));
+    data->maxAnisotropy = fetch.maxAnisotropy;
+    data->tiling = 400.0f;
+    const samples::Camera camera = {.position = {0, 1, 0}, .target = {0, 1, 1}, .fieldOfView = 60, .farPlane = 1000};
+    data->clipFromWorld = clipFromWorld(camera, width, height);
+    data->worldFromObject = samples::rotationX(90) * samples::scaling(glm::vec3(800));
+    const PlaneVertexProgram vertexProgram = {{data->clipFromWorld, data->worldFromObject}, data->tiling};
+    const sampler2D mainTex = {.texture = &*data->texture, .maxAnisotropy = fetch.maxAnisotropy};
+    if (fetch.finestLevel) {
+        frame.draw(data->mesh, vertexProgram, FinestLevelFragmentProgram{mainTex});
+    } else {
+        frame.draw(data->mesh, vertexProgram, TextureFragmentProgram{mainTex});
+    }
+    return data;
+}
+
+std::unique_ptr<SceneData> recordTerrain(Frame& frame, int width, int height, int cellsX, int cellsZ)
+{
+    auto data = std::make_unique<SceneData>();
+    data->mesh = makeTerrain(cellsX, cellsZ);
+    const samples::Camera camera = {.position = {0, 0.75f, -0.6f}, .target = {0, 0, -0.02f}, .fieldOfView = 50};
+    data->clipFromWorld = clipFromWorld(camera, width, height);
+    data->worldFromObject = samples::scaling({1.6f, 1, 1});
+    data->lightDir = {0.40824829f, 0.81649658f, -0.40824829f};
+    data->color = {0.8f, 0.7f, 0.5f};
+    frame.draw(data->mesh, TerrainVertexProgram{{data->clipFromWorld, data->worldFromObject}},
+               LambertFragmentProgram{broadcast(data->lightDir), broadcast(data->color)});
+    return data;
+}
+
+std::unique_ptr<SceneData> recordStage(Frame& frame, int width, int height, const std::string& name,
+                                       const std::vector<std::string>& settings)
 {
     auto data = std::make_unique<SceneData>();
     auto prepared = samples::findStage(name).and_then(
@@ -249,8 +267,6 @@ std::unique_ptr<SceneData> stage(Frame& frame, int width, int height, const char
     return data;
 }
 
-}  // namespace
-
 std::vector<samples::Object> SceneData::objects() const
 {
     if (stage) return stage->inputs->objects;
@@ -263,21 +279,23 @@ const std::vector<BenchScene>& benchScenes()
         {"clear", "nothing is drawn", clearOnly},
         {"flat_quad", "one colour on every pixel", [](Frame& f, int, int) { return layers(f, 1); }},
         {"trilinear_plane", "a ground plane to the horizon, one trilinear RGBA8 fetch",
-         [](Frame& f, int w, int h) { return plane(f, w, h, 1); }},
+         [](Frame& f, int w, int h) { return recordPlane(f, w, h, testTexture(), {}); }},
         {"anisotropic_plane", "the same plane, the fetch up to 16 times anisotropic",
-         [](Frame& f, int w, int h) { return plane(f, w, h, 16); }},
+         [](Frame& f, int w, int h) { return recordPlane(f, w, h, testTexture(), {.maxAnisotropy = 16}); }},
         {"layers_32", "32 full-screen layers, back to front", [](Frame& f, int, int) { return layers(f, 32); }},
-        {"million_triangles", "a height field of 1,000,000 triangles, Lambert", millionTriangles},
+        {"million_triangles", "a height field of 1,000,000 triangles, Lambert",
+         [](Frame& f, int w, int h) { return recordTerrain(f, w, h, 1000, 500); }},
         {"small_triangles", "20,000 triangles of some 10 pixels, in any order", smallTriangles},
-        {"stage_1.09", "five fetches and GGX on a quad", [](Frame& f, int w, int h) { return stage(f, w, h, "1.09"); }},
+        {"stage_1.09", "five fetches and GGX on a quad",
+         [](Frame& f, int w, int h) { return recordStage(f, w, h, "1.09"); }},
         {"stage_1.25", "four fetches and GGX on three objects, a pass for each of three lights",
          [](Frame& f, int w, int h) {  // however this build's stages compute binormals
-             return stage(f, w, h, "1.25", {"binormalPerFragment=0"});
+             return recordStage(f, w, h, "1.25", {"binormalPerFragment=0"});
          }},
         {"stage_2.06", "a normal map under two lights, in two passes",
-         [](Frame& f, int w, int h) { return stage(f, w, h, "2.06"); }},
+         [](Frame& f, int w, int h) { return recordStage(f, w, h, "2.06"); }},
         {"stage_4.07", "colours and normals from three sides, mixed",
-         [](Frame& f, int w, int h) { return stage(f, w, h, "4.07"); }},
+         [](Frame& f, int w, int h) { return recordStage(f, w, h, "4.07"); }},
     };
     return scenes;
 }

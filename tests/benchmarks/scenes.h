@@ -53,4 +53,23 @@ struct BenchScene
 
 const std::vector<BenchScene>& benchScenes();
 
+// What some of them are made of, for other sizes than theirs.
+
+// How the plane's texture is fetched: from mip levels, up to `maxAnisotropy` times anisotropic, or bilinearly from its
+// finest level alone.
+struct PlaneFetch
+{
+    int maxAnisotropy = 1;
+    bool finestLevel = false;
+};
+
+std::unique_ptr<SceneData> recordPlane(Frame& frame, int width, int height, Texture texture, PlaneFetch fetch);
+
+// A height field of 2 * cellsX * cellsZ triangles.
+std::unique_ptr<SceneData> recordTerrain(Frame& frame, int width, int height, int cellsX, int cellsZ);
+
+// A stage, with settings as PreparedStage::prepare takes them.
+std::unique_ptr<SceneData> recordStage(Frame& frame, int width, int height, const std::string& name,
+                                       const std::vector<std::string>& settings = {});
+
 }  // namespace relief::benchmarks
