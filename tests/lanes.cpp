@@ -188,6 +188,52 @@ TEST_CASE("loadTransposedPair: both words of every lane's address")
     }
 }
 
+TEST_CASE("loadTransposed: from two addresses per lane")
+{
+    const Memory memory;
+    native::IntVector out[4], next[4];
+    native::loadTransposed<native::FourWords>([&](int i) { return memory.address[i]; },
+                                              [&](int i) { return memory.address[(i + 1) % kLanes]; }, out, next);
+    for (int k = 0; k < 4; ++k) {
+        for (int i = 0; i < kLanes; ++i) {
+            CHECK(Int(out[k])[i] == memory.wordAt(i, k));
+            CHECK(Int(next[k])[i] == memory.wordAt((i + 1) % kLanes, k));
+        }
+    }
+}
+
+TEST_CASE("multiplyAddHalves: signed halves, exact sums")
+{
+    RandomBits random;
+    for (int round = 0; round < 100; ++round) {
+        Int a, b;
+        std::int32_t expected[kLanes];
+        for (int i = 0; i < kLanes; ++i) {
+            const auto half = [&random] { return static_cast<std::int16_t>(random() & 0xffff); };
+            const std::int16_t lowA = half(), highA = half(), lowB = half();
+            const auto highB = static_cast<std::int16_t>(half() | 1);  // not all four -32768
+            const auto pack = [](std::int16_t low, std::int16_t high) {
+                return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint16_t>(high)) << 16 |
+                                                 static_cast<std::uint16_t>(low));
+            };
+            a.set(i, pack(lowA, highA));
+            b.set(i, pack(lowB, highB));
+            expected[i] = lowA * lowB + highA * highB;
+        }
+        CHECK(all(multiplyAddHalves(a, b) == Int::load(expected)));
+    }
+}
+
+TEST_CASE("inRows: pixel after pixel, row after row")
+{
+    const Int x = inRows(laneXs()), y = inRows(laneYs());
+    for (int i = 0; i < kLanes; ++i) {
+        CHECK(x[i] == i % kBlockWidth);
+        CHECK(y[i] == i / kBlockWidth);
+        CHECK(laneAt(laneX(i), laneY(i)) == i);
+    }
+}
+
 // --- Double ---
 
 namespace {

@@ -15,7 +15,8 @@ TEST_CASE("sampler: UNORM texels become c / 255 and c / 65535, correctly rounded
         const float4 deep = FetchRgba16::toUnit({raw, raw, raw, raw});
         for (int k = 0; k < 4; ++k) different += deep[k][0] != code / 65535.0f ? 1 : 0;
         if (c > 255) continue;
-        const float4 unit = FetchRgba8::toUnit({raw, raw * 256.0f, raw, raw * 256.0f});
+        const Float scaled = raw * static_cast<float>(kSubtexels);
+        const float4 unit = FetchRgba8::toUnit({scaled, scaled, scaled, scaled});
         for (int k = 0; k < 4; ++k) different += unit[k][0] != code / 255.0f ? 1 : 0;
     }
     CHECK(different == 0);
@@ -293,14 +294,56 @@ TEST_CASE("sampler: texels with weight 0 do not matter, not even NaN and infinit
     CHECK(lodSample(s, -3.0f, 0.0f).w[0] == 0.5f);
 }
 
+TEST_CASE("sampler: what is left out where alpha is 1 everywhere changes no bit of red, green and blue")
+{
+    for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::rgba16}) {
+        // The same colours twice, once with a single texel that is not opaque.
+        const auto make = [format](bool opaque) {
+            return *Texture::fromLevels(format, 32, 16, [=](int k, const MipLevel* finer) {
+                if (k > 0) return coarserLevel(format, *finer);
+                MipLevel level(format, 32, 16);
+                for (int i = 0; i < 32 * 16; ++i) {
+                    for (int c = 0; c < 4; ++c) {
+                        const int code = c == 3 && (opaque || i > 0) ? 65535 : i * 6007 * (c + 1) & 65535;
+                        if (format == TexelFormat::rgba8) {
+                            level.texel<std::uint8_t>(i % 32, i / 32)[c] = static_cast<std::uint8_t>(code >> 8);
+                        } else {
+                            level.texel<std::uint16_t>(i % 32, i / 32)[c] = static_cast<std::uint16_t>(code);
+                        }
+                    }
+                }
+                level.fillFrame();
+                return level;
+            });
+        };
+        const Texture opaque = make(true), other = make(false);
+        CHECK(opaque.level(0).isOpaque());
+        CHECK(opaque.level(3).isOpaque());
+        CHECK(!other.level(0).isOpaque());
+        Random random(3);
+        for (const Filter filter : kFilters) {
+            const sampler2D a{.texture = &opaque, .filter = filter}, b{.texture = &other, .filter = filter};
+            for (int i = 0; i < 50; ++i) {
+                const Float u = random(-2.0f, 2.0f), v = random(-2.0f, 2.0f), lod = random(-1.0f, 5.0f);
+                const float4 left = tex2Dlod(a, {u, v, Float(0.0f), lod}),
+                             right = tex2Dlod(b, {u, v, Float(0.0f), lod});
+                for (int c = 0; c < 3; ++c) CHECK(all(left[c] == right[c]));
+                CHECK(all(left.w == 1.0f));
+            }
+        }
+        // A border has an alpha of its own.
+        const sampler2D s{.texture = &opaque, .u = AddressMode::border, .borderColor = {0, 0, 0, 0.25f}};
+        CHECK(all(tex2Dlod(s, {Float(-1.0f), Float(0.5f), Float(0.0f), Float(0.0f)}).w == 0.25f));
+    }
+}
+
 TEST_CASE("sampler: byte offsets do not fit 32 bits where textures are large (S-558)")
 {
     // A 16384 x 16384 texture of 8 bytes per texel takes 2 GiB; only the addresses are computed here.
-    detail::TexelIndices indices(Int(16384 * 16400));
-    detail::Addresses address;
+    const detail::TexelIndices indices(Int(16384 * 16400));
     alignas(64) static std::byte base[64];
-    indices.addresses<8>(base, address);
-    CHECK(reinterpret_cast<std::uintptr_t>(address[0]) - reinterpret_cast<std::uintptr_t>(base) ==
+    const std::byte* address = indices.from<8>(base)(0);
+    CHECK(reinterpret_cast<std::uintptr_t>(address) - reinterpret_cast<std::uintptr_t>(base) ==
           std::uintptr_t{16384} * 16400 * 8);
 
     // And the last texel of the largest side that is cheap to make.

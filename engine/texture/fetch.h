@@ -26,13 +26,23 @@ public:
         asm("" : "+m"(indices));  // or the compiler would take the lanes out of the register, one shuffle each
     }
 
-    // Where each lane's texel is, as a function of the lane.
+    // Where a lane's texel is.
     template <int bytesPerTexel>
-    auto from(const std::byte* texels) const
+    struct Address
     {
-        return [this, texels](int lane) __attribute__((always_inline)) {
+        const std::byte* texels;
+        const std::int32_t* indices;
+
+        [[gnu::always_inline]] const std::byte* operator()(int lane) const
+        {
             return texels + std::size_t{static_cast<std::uint32_t>(indices[lane])} * bytesPerTexel;
-        };
+        }
+    };
+
+    template <int bytesPerTexel>
+    Address<bytesPerTexel> from(const std::byte* texels) const
+    {
+        return {texels, indices};
     }
 
 private:
@@ -91,7 +101,8 @@ struct FetchRgba8
         native::IntVector lower[2], upper[2];
         const detail::TexelIndices indices(index);
         const std::byte* texels = level.texels();
-        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(texels), indices.from<kBytes>(texels + level.rowBytes()), lower, upper);
+        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(texels),
+                                                 indices.from<kBytes>(texels + level.rowBytes()), lower, upper);
         const Int weights =
             (fx << 16) + (kSubtexels - fx);  // of the left texel in the low half, of the right one above
         const Row a = alongRow(lower, weights), b = alongRow(upper, weights);
@@ -147,7 +158,8 @@ struct FetchRgba16
         native::IntVector lower[4], upper[4];
         const detail::TexelIndices indices(index);
         const std::byte* texels = level.texels();
-        native::loadTransposed<native::FourWords>(indices.from<kBytes>(texels), indices.from<kBytes>(texels + level.rowBytes()), lower, upper);
+        native::loadTransposed<native::FourWords>(indices.from<kBytes>(texels),
+                                                  indices.from<kBytes>(texels + level.rowBytes()), lower, upper);
         const Float tx = Float(fx) * (1.0f / kSubtexels), ty = Float(fy) * (1.0f / kSubtexels);
         return detail::mix(alongRow(lower, tx), alongRow(upper, tx), ty);
     }
