@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "lanes/int.h"
 #include "pipeline/edge_function.h"
 
 namespace relief {
@@ -32,13 +31,13 @@ struct TileSpans
         native::IntVector w[8];  // the corners' x and y are a triangle's first six words
         native::loadTransposed(address[0], w);
         native::loadTransposed(address[1], w + 4);
-        const Int minX = min(min(Int(w[0]), Int(w[1])), Int(w[2])), maxX = max(max(Int(w[0]), Int(w[1])), Int(w[2]));
-        const Int minY = min(min(Int(w[3]), Int(w[4])), Int(w[5])), maxY = max(max(Int(w[3]), Int(w[4])), Int(w[5]));
-        const int half = kSubpixels / 2, shift = std::countr_zero(static_cast<unsigned>(grid.tileSize));
-        x0 = max((minX + (half - 1)) >> kSubpixelBits, bounds.x0) >> shift;
-        y0 = max((minY + (half - 1)) >> kSubpixelBits, bounds.y0) >> shift;
-        x1 = min((maxX - half) >> kSubpixelBits, bounds.x1 - 1) >> shift;
-        y1 = min((maxY - half) >> kSubpixelBits, bounds.y1 - 1) >> shift;
+        const Int x[3] = {Int(w[0]), Int(w[1]), Int(w[2])}, y[3] = {Int(w[3]), Int(w[4]), Int(w[5])};
+        const RectangleLanes pixels = sampleBounds(x, y, bounds);
+        const int shift = std::countr_zero(static_cast<unsigned>(grid.tileSize));
+        x0 = pixels.x0 >> shift;
+        y0 = pixels.y0 >> shift;
+        x1 = (pixels.x1 - 1) >> shift;
+        y1 = (pixels.y1 - 1) >> shift;
     }
 };
 

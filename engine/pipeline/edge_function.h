@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "lanes/int.h"
 #include "pipeline/geometry.h"
 
 namespace relief {
@@ -58,13 +59,6 @@ inline std::int32_t highest(const std::int32_t v[3])
     return high > v[2] ? high : v[2];
 }
 
-// Whether the edge functions fit into 32 bits at every pixel of every block that the triangle touches.
-inline bool isSmall(const Triangle& t)
-{
-    constexpr std::int32_t limit = kSmallTriangle * kSubpixels;
-    return highest(t.x) - lowest(t.x) <= limit && highest(t.y) - lowest(t.y) <= limit;
-}
-
 // The pixels whose centres lie within the triangle's bounds, clipped; may be empty.
 inline Rectangle sampleBounds(const Triangle& t, const Rectangle& clip)
 {
@@ -72,6 +66,21 @@ inline Rectangle sampleBounds(const Triangle& t, const Rectangle& clip)
     return intersect({(lowest(t.x) + half - 1) >> kSubpixelBits, (lowest(t.y) + half - 1) >> kSubpixelBits,
                       ((highest(t.x) - half) >> kSubpixelBits) + 1, ((highest(t.y) - half) >> kSubpixelBits) + 1},
                      clip);
+}
+
+// The same with a triangle in every lane: pixels [x0, x1) x [y0, y1).
+struct RectangleLanes
+{
+    Int x0, y0, x1, y1;
+};
+
+inline RectangleLanes sampleBounds(const Int (&x)[3], const Int (&y)[3], const Rectangle& clip)
+{
+    constexpr int half = kSubpixels / 2;
+    const Int minX = min(min(x[0], x[1]), x[2]), maxX = max(max(x[0], x[1]), x[2]);
+    const Int minY = min(min(y[0], y[1]), y[2]), maxY = max(max(y[0], y[1]), y[2]);
+    return {max((minX + (half - 1)) >> kSubpixelBits, clip.x0), max((minY + (half - 1)) >> kSubpixelBits, clip.y0),
+            min(((maxX - half) >> kSubpixelBits) + 1, clip.x1), min(((maxY - half) >> kSubpixelBits) + 1, clip.y1)};
 }
 
 }  // namespace relief

@@ -6,6 +6,7 @@
 
 #include "lanes/double.h"
 #include "pipeline/clip.h"
+#include "pipeline/edge_function.h"
 #include "pipeline/viewport_transform.h"
 
 namespace relief {
@@ -121,17 +122,11 @@ Orientation orient(const TriangleLanes& t, Cull cull)
     return {front | back, back};
 }
 
-// The lanes with a pixel centre in the triangle's bounds and within the draw's: centres lie at 128 mod 256.
+// The lanes with a pixel centre in the triangle's bounds and within the draw's.
 unsigned coversSample(const TriangleLanes& t, const Rectangle& bounds)
 {
-    const Int minX = min(min(t.x[0], t.x[1]), t.x[2]), maxX = max(max(t.x[0], t.x[1]), t.x[2]);
-    const Int minY = min(min(t.y[0], t.y[1]), t.y[2]), maxY = max(max(t.y[0], t.y[1]), t.y[2]);
-    const int half = kSubpixels / 2;
-    const Int firstX = max((minX + (half - 1)) >> kSubpixelBits, Int(bounds.x0));
-    const Int firstY = max((minY + (half - 1)) >> kSubpixelBits, Int(bounds.y0));
-    const Int lastX = min((maxX - half) >> kSubpixelBits, Int(bounds.x1 - 1));
-    const Int lastY = min((maxY - half) >> kSubpixelBits, Int(bounds.y1 - 1));
-    return ((firstX <= lastX) & (firstY <= lastY)).bits();
+    const RectangleLanes pixels = sampleBounds(t.x, t.y, bounds);
+    return ((pixels.x0 < pixels.x1) & (pixels.y0 < pixels.y1)).bits();
 }
 
 struct Survivors

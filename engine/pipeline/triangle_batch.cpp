@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "lanes/double.h"
+#include "pipeline/edge_function.h"
 
 namespace relief {
 
@@ -17,19 +18,16 @@ struct Corners
 
 void setBounds(TriangleBatch& batch, const Corners& c, const Rectangle& clip)
 {
-    const Int minX = min(min(c.x[0], c.x[1]), c.x[2]), maxX = max(max(c.x[0], c.x[1]), c.x[2]);
-    const Int minY = min(min(c.y[0], c.y[1]), c.y[2]), maxY = max(max(c.y[0], c.y[1]), c.y[2]);
-    constexpr int half = kSubpixels / 2;  // pixel centres lie at 128 mod 256
-    const Int x0 = max((minX + (half - 1)) >> kSubpixelBits, clip.x0);
-    const Int y0 = max((minY + (half - 1)) >> kSubpixelBits, clip.y0);
-    batch.x0 = x0 & -kBlockWidth;
-    batch.y0 = y0 & -kBlockHeight;
-    batch.x1 = min(((maxX - half) >> kSubpixelBits) + 1, clip.x1);
-    batch.y1 = min(((maxY - half) >> kSubpixelBits) + 1, clip.y1);
-    batch.visible = ((x0 < batch.x1) & (y0 < batch.y1)).bits();
+    const RectangleLanes pixels = sampleBounds(c.x, c.y, clip);
+    batch.x0 = pixels.x0 & -kBlockWidth;
+    batch.y0 = pixels.y0 & -kBlockHeight;
+    batch.x1 = pixels.x1;
+    batch.y1 = pixels.y1;
+    batch.visible = ((pixels.x0 < pixels.x1) & (pixels.y0 < pixels.y1)).bits();
 
     constexpr std::int32_t limit = kSmallTriangle * kSubpixels;
-    batch.small = ((maxX - minX <= limit) & (maxY - minY <= limit)).bits();
+    const auto extent = [](const Int(&v)[3]) { return max(max(v[0], v[1]), v[2]) - min(min(v[0], v[1]), v[2]); };
+    batch.small = ((extent(c.x) <= limit) & (extent(c.y) <= limit)).bits();
 }
 
 // EdgeFunction and edgeOf(), modulo 2^32.

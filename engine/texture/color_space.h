@@ -20,11 +20,12 @@ enum class ColorSpace
 // The linear value, in 0..1, of an encoded one in 0..1. Relative error below 1e-15.
 double decodeSrgb(double encoded);
 
-// The linear value of an 8-bit code: decodeSrgb(code / 255) rounded to the nearest float. srgbToLinear(0) is 0,
-// srgbToLinear(255) is 1.
 namespace detail {
 extern const std::array<float, 256> kSrgbToLinear;
 }
+
+// The linear value of an 8-bit code: decodeSrgb(code / 255) rounded to the nearest float. srgbToLinear(0) is 0,
+// srgbToLinear(255) is 1.
 inline float srgbToLinear(std::uint8_t code)
 {
     return detail::kSrgbToLinear[code];

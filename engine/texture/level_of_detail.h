@@ -66,10 +66,4 @@ inline AnisotropicFootprint anisotropicFootprint(const float2& dX, const float2&
     return footprint;
 }
 
-// The sampler's limits: minLod wins where it is above maxLod, and NaN becomes maxLod.
-inline Float limitLevel(Float lod, float minLod, float maxLod)
-{
-    return max(Float(minLod), min(Float(maxLod), lod));
-}
-
 }  // namespace relief

@@ -19,14 +19,20 @@ inline const Texture& textureOf(const sampler2D& s)
     return s.texture ? *s.texture : Texture::white();
 }
 
-// `lod` after bias, NaN included, to what sampleMipLevels takes: limited by the sampler (minLod wins where it is above
-// maxLod) and to the levels that exist. NaN becomes the upper limit.
-inline Int fixedLevel(const sampler2D& s, const Texture& texture, Float lod)
+// `lod` after bias, NaN included, limited by the sampler (minLod wins where it is above maxLod) and to `levels`, those
+// that exist. NaN becomes the upper limit.
+inline Float limitedLevel(const sampler2D& s, int levels, Float lod)
 {
-    const auto last = static_cast<float>(texture.levelCount() - 1);
+    const auto last = static_cast<float>(levels - 1);
     const auto existing = [last](float level) { return level > 0.0f ? std::min(level, last) : 0.0f; };
     const float low = existing(s.minLod), high = std::max(low, s.maxLod < last ? existing(s.maxLod) : last);
-    const Float limited = Float(native::max(native::min(lod.value, Float(high).value), Float(low).value));
+    return Float(native::max(native::min(lod.value, Float(high).value), Float(low).value));
+}
+
+// What sampleMipLevels takes.
+inline Int fixedLevel(const sampler2D& s, const Texture& texture, Float lod)
+{
+    const Float limited = limitedLevel(s, texture.levelCount(), lod);
     return Int(native::roundToInt((limited * static_cast<float>(kLodOne)).value));
 }
 
@@ -323,8 +329,7 @@ float4 tex2DWhere(Mask needed, const sampler2D& s, const float2& uv)
 Float calculateLevelOfDetail(const sampler2D& s, const float2& uv)
 {
     const Texture& texture = textureOf(s);
-    const Float last = static_cast<float>(s.mipmaps ? texture.levelCount() - 1 : 0);
-    return clamp(limitLevel(impliedLevel(s, texture, uv), s.minLod, s.maxLod), 0.0f, last);
+    return limitedLevel(s, s.mipmaps ? texture.levelCount() : 1, impliedLevel(s, texture, uv));
 }
 
 Float calculateLevelOfDetailUnclamped(const sampler2D& s, const float2& uv)
