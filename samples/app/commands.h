@@ -59,6 +59,8 @@ struct ReportOptions
     int rounds = 0;              // 0: the report's own
     std::string countedProgram;  // empty: instructions are not counted
     double part = 1.0;           // of `performance`: how far its scalings go, as a part of the whole way
+    std::string only;            // of `error`: one experiment, "E-01"; empty: all
+    bool countOnly = false;      // of `error`: runs each variant between marks for valgrind, and writes nothing
 };
 
 Expected<void> list(bool json);

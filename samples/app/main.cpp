@@ -191,7 +191,8 @@ int main(int argc, char** argv)
     command
         ->add_option("name", reportOptions.name,
                      "triplanar: what each way to map normals costs, beside its error; performance: how cost grows "
-                     "with pixels, triangles, threads, lights and textures")
+                     "with pixels, triangles, threads, lights and textures; error: every approximation's error "
+                     "beside its run time")
         ->required();
     command->add_option("--output", reportOptions.output, "The folder")->capture_default_str()->type_name("DIR");
     command
@@ -208,9 +209,11 @@ int main(int argc, char** argv)
                      "Of performance: leaves out what is larger than this part of the largest picture, mesh, texture "
                      "and number of lights")
         ->check(CLI::Range(1e-9, 1.0));
+    command->add_option("--only", reportOptions.only, "Of error: one experiment, by its number")->type_name("E-01");
+    command->add_flag("--count-only", reportOptions.countOnly, "What valgrind runs to count instructions")->group("");
     command
         ->add_option("--counted-program", reportOptions.countedProgram,
-                     "Of triplanar: the relief that instructions are counted in; ./relief builds one")
+                     "Of triplanar and error: the relief that instructions are counted in; ./relief builds one")
         ->type_name("FILE");
     command->callback([&] { result = report(reportOptions); });
 

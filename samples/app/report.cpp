@@ -22,7 +22,8 @@ struct Report
 };
 
 constexpr Report kReports[] = {{"triplanar", reportTriplanar, "960x540", 31},
-                               {"performance", reportPerformance, "1920x1080", 5}};
+                               {"performance", reportPerformance, "1920x1080", 5},
+                               {"error", reportError, "960x540", 15}};
 
 Expected<const Report*> findReport(const std::string& name)
 {
@@ -53,8 +54,10 @@ std::string compiler()
 #endif
 }
 
+}  // namespace
+
 // Of the sources that lie where they were built.
-std::string commit()
+std::string reportCommit()
 {
     const std::string git = "git -C " + quoted(RELIEF_SOURCE_FOLDER) + " ";
     std::string hash = outputOf(git + "rev-parse --short=12 HEAD").value_or("unknown");
@@ -62,8 +65,6 @@ std::string commit()
     const std::optional<std::string> changes = outputOf(git + "status --porcelain --untracked-files=no");
     return changes && !changes->empty() ? hash + " and changes that are not committed" : hash;
 }
-
-}  // namespace
 
 std::string reportHead(const std::string& title, const ReportOptions& options)
 {
@@ -73,7 +74,8 @@ std::string reportHead(const std::string& title, const ReportOptions& options)
     if (options.rounds != usual.rounds) command += " --rounds " + std::to_string(options.rounds);
     if (options.part < 1.0) command += " --part " + text("%g", options.part);
     return "# " + title + "\n\n    " + command + "\n\n- processor: " + processor() +
-           "\n- lanes: " + std::to_string(kLanes) + "\n- compiler: " + compiler() + "\n- commit: " + commit() + "\n";
+           "\n- lanes: " + std::to_string(kLanes) + "\n- compiler: " + compiler() + "\n- commit: " + reportCommit() +
+           "\n";
 }
 
 Expected<void> writeReport(const ReportOptions& options, const std::string& file, const std::string& text)
@@ -94,16 +96,16 @@ Expected<void> checkPlotting()
     return fail("the plot cannot be drawn: gnuplot does not run; install gnuplot-nox");
 }
 
-Expected<void> plotReport(const ReportOptions& options, const std::string& settings)
+Expected<void> plotReport(const ReportOptions& options, const std::string& script, const std::string& plot,
+                          const std::string& settings)
 {
-    const std::string script = RELIEF_SOURCE_FOLDER "/docs/report/" + options.name + ".gnuplot";
-    const std::string command =
-        "cd " + quoted(options.output) + " && gnuplot -e " + quoted(settings) + " " + quoted(script);
+    const std::string command = "cd " + quoted(options.output) + " && gnuplot -e " + quoted(settings) + " " +
+                                quoted(RELIEF_SOURCE_FOLDER "/docs/report/" + script + ".gnuplot");
     const std::optional<std::string> svg = outputOf(command + " 2>/dev/null");
     if (!svg || !svg->starts_with("<?xml")) {
-        return fail(options.name + ".svg was not drawn; run this to see why: " + command);
+        return fail(plot + ".svg was not drawn; run this to see why: " + command);
     }
-    return writeReport(options, options.name + ".svg", *svg);
+    return writeReport(options, plot + ".svg", *svg);
 }
 
 void showProgress(const std::string& line)
@@ -120,6 +122,10 @@ Expected<void> report(const ReportOptions& options)
     ReportOptions complete = options;
     if (complete.size.empty()) complete.size = (*found)->size;
     if (complete.rounds == 0) complete.rounds = (*found)->rounds;
+    if (complete.part < 1.0 && complete.name != "performance")
+        return fail("report " + complete.name + ": it does not take --part");
+    if (!complete.only.empty() && complete.name != "error")
+        return fail("report " + complete.name + ": it does not take --only");
     return (*found)->write(complete);
 }
 

@@ -8,16 +8,19 @@ namespace relief::samples {
 // One for each name that `relief report` takes.
 Expected<void> reportTriplanar(const ReportOptions& options);
 Expected<void> reportPerformance(const ReportOptions& options);  // in tests/benchmarks
+Expected<void> reportError(const ReportOptions& options);        // in tests/experiments
 
 // The lines that a report begins with: title, the command that made it, the machine, the compiler and the commit.
 std::string reportHead(const std::string& title, const ReportOptions& options);
+std::string reportCommit();
 
 // Writes a file into the report's folder, which is made if it is missing.
 Expected<void> writeReport(const ReportOptions& options, const std::string& file, const std::string& text);
 
-// Runs docs/report/NAME.gnuplot, with `settings` ("a=1; b=2") before it, in the report's folder, where it finds the
-// tables, and writes NAME.svg. And whether that is possible.
-Expected<void> plotReport(const ReportOptions& options, const std::string& settings);
+// Runs docs/report/SCRIPT.gnuplot, with `settings` ("a=1; b=2") before it, in the report's folder, where it finds the
+// tables, and writes PLOT.svg. And whether that is possible.
+Expected<void> plotReport(const ReportOptions& options, const std::string& script, const std::string& plot,
+                          const std::string& settings);
 Expected<void> checkPlotting();
 
 // What is being done, on one line that the next replaces; only on a terminal. Empty: nothing any more.

@@ -367,7 +367,6 @@ std::string preamble(const Table& methods, const ReportOptions& options)
 
 Expected<void> reportTriplanar(const ReportOptions& options)
 {
-    if (options.part < 1.0) return fail("report triplanar: it does not take --part");
     const Expected<void> canPlot = checkPlotting();
     if (!canPlot) return canPlot;
     const Expected<Table> methods = measured("methods", kMethods, options);
@@ -398,7 +397,7 @@ Expected<void> reportTriplanar(const ReportOptions& options)
     for (const Expected<void>& written :
          {writeReport(options, "triplanar.csv", csv(*methods, *textured, *alone)),
           writeReport(options, "triplanar.md", document),
-          plotReport(options, options.countedProgram.empty() ? "counted=0" : "counted=1")}) {
+          plotReport(options, "triplanar", "triplanar", options.countedProgram.empty() ? "counted=0" : "counted=1")}) {
         if (!written) return written;
     }
     std::printf("%s/triplanar.md, .csv and .svg\n", options.output.c_str());

@@ -225,9 +225,9 @@ Expected<void> reportPerformance(const ReportOptions& options)
     if (!canPlot) return canPlot;
     const Expected<Table> table = measured(benchmarks::scalingPoints(*size, options.part), options.rounds);
     if (!table) return tl::unexpected(table.error());
-    for (const Expected<void>& written :
-         {writeReport(options, "performance.csv", csv(*table)),
-          writeReport(options, "performance.md", document(*table, options)), plotReport(options, "")}) {
+    for (const Expected<void>& written : {writeReport(options, "performance.csv", csv(*table)),
+                                          writeReport(options, "performance.md", document(*table, options)),
+                                          plotReport(options, "performance", "performance", "")}) {
         if (!written) return written;
     }
     std::printf("%s/performance.md, .csv and .svg\n", options.output.c_str());

@@ -1,0 +1,13 @@
+// The experiments, one file each: eNN_subject.cpp.
+#pragma once
+
+#include "experiment.h"
+
+namespace relief::experiments {
+
+Experiment zDecode(Effort effort);
+
+// A number with so many digits after the point.
+std::string number(double value, int digits);
+
+}  // namespace relief::experiments

@@ -1,0 +1,150 @@
+#include "measure.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include <unistd.h>
+
+#include "cost.h"
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#endif
+
+namespace relief::experiments {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsOf(const Work& work, int repeats)
+{
+    const auto begin = Clock::now();
+    for (int i = 0; i < repeats; ++i) work.run();
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// As many runs as take a millisecond: short enough that most turns are not interrupted, long enough for the clock.
+int repeatsOf(const Work& work)
+{
+    constexpr double kTurnSeconds = 1e-3;
+    work.run();  // warms up
+    const double once = std::max(secondsOf(work, 1), 1e-8);
+    return std::max(1, static_cast<int>(kTurnSeconds / once));
+}
+
+struct Timed
+{
+    const Work* work;
+    int repeats;
+    std::vector<double> nanoseconds;  // per item, one for each round
+
+    void takeTurn() { nanoseconds.push_back(secondsOf(*work, repeats) * 1e9 / (repeats * work->items)); }
+    double fastest() const { return *std::min_element(nanoseconds.begin(), nanoseconds.end()); }
+};
+
+double medianOf(std::vector<double> values)
+{
+    return samples::quartiles(std::move(values)).median;
+}
+
+// At least as exact and as fast, and better in one by more than chance: by 1 % of the error or 3 % of the time.
+bool beats(const Row& a, const Row& b)
+{
+    const double errorA = a.outcome.error.rms, errorB = b.outcome.error.rms;
+    return errorA <= errorB && a.fastest <= b.fastest && (errorA < 0.99 * errorB || a.fastest < 0.97 * b.fastest);
+}
+
+}  // namespace
+
+void markFront(Rows& rows)
+{
+    for (Row& row : rows.all) {
+        row.isOnFront =
+            std::none_of(rows.all.begin(), rows.all.end(), [&](const Row& other) { return beats(other, row); });
+    }
+}
+
+Rows measure(const Experiment& experiment, int rounds, const Progress& progress)
+{
+    Rows rows;
+    std::vector<Timed> warm, streaming;
+    for (const Variant& v : experiment.variants) {
+        progress(experiment.id + ": error of " + v.name + " " + v.parameter);
+        rows.all.push_back({.name = v.name, .parameter = v.parameter, .outcome = v.outcome()});
+        warm.push_back({&v.work, repeatsOf(v.work), {}});
+        if (v.streaming.run) streaming.push_back({&v.streaming, repeatsOf(v.streaming), {}});
+    }
+    for (int round = 0; round < rounds; ++round) {
+        progress(experiment.id + ": round " + std::to_string(round + 1) + " of " + std::to_string(rounds));
+        for (Timed& t : warm) t.takeTurn();
+        for (Timed& t : streaming) t.takeTurn();
+    }
+    std::size_t streamed = 0;
+    for (std::size_t i = 0; i < rows.all.size(); ++i) {
+        Row& row = rows.all[i];
+        row.fastest = warm[i].fastest();
+        row.median = medianOf(warm[i].nanoseconds);
+        std::vector<double> deviations;
+        for (const double t : warm[i].nanoseconds) deviations.push_back(std::abs(t - row.median));
+        row.deviation = medianOf(std::move(deviations));
+        if (experiment.variants[i].streaming.run) row.streaming = streaming[streamed++].fastest();
+    }
+    markFront(rows);
+    return rows;
+}
+
+#if __has_include(<valgrind/callgrind.h>)
+
+Expected<void> runForCounting(const Experiment& experiment)
+{
+    for (const Variant& v : experiment.variants) {
+        v.work.run();  // what the first run alone does is not counted
+        CALLGRIND_START_INSTRUMENTATION;
+        CALLGRIND_ZERO_STATS;
+        v.work.run();
+        CALLGRIND_DUMP_STATS;
+        CALLGRIND_STOP_INSTRUMENTATION;
+    }
+    return {};
+}
+
+#else
+
+Expected<void> runForCounting(const Experiment&)
+{
+    return fail("report error: this build cannot have its instructions counted; install valgrind and build it again");
+}
+
+#endif
+
+// valgrind writes the counts of dump k to counts.k, on a line "totals: 1234".
+Expected<std::vector<double>> countInstructions(const std::string& program, const std::string& id)
+{
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("relief-counts-" + std::to_string(getpid()));
+    std::error_code ignored;
+    std::filesystem::create_directories(folder, ignored);
+    const std::string command = "valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file=" +
+                                samples::quoted((folder / "counts").string()) + " " + samples::quoted(program) +
+                                " report error --count-only --only " + id;
+    const bool ran = samples::outputOf(command).has_value();
+    std::vector<double> counts;
+    for (int k = 1;; ++k) {
+        std::ifstream file(folder / ("counts." + std::to_string(k)));
+        if (!file) break;
+        for (std::string line; std::getline(file, line);) {
+            if (line.starts_with("totals: ")) counts.push_back(std::stod(line.substr(8)));
+        }
+    }
+    std::filesystem::remove_all(folder, ignored);
+    if (!ran || counts.empty()) {
+        return fail("report error: instructions were not counted; run this to see why: " + command);
+    }
+    return counts;
+}
+
+}  // namespace relief::experiments
