@@ -7,7 +7,11 @@ namespace relief::experiments {
 
 const std::vector<Entry>& experiments()
 {
-    static const std::vector<Entry> all = {{"E-01", zDecode}};
+    static const std::vector<Entry> all = {
+        {"E-01", zDecode},
+        {"E-02", bumpScale},
+        {"E-06", normalBlends},
+    };
     return all;
 }
 
