@@ -10,6 +10,7 @@ const std::vector<Entry>& experiments()
     static const std::vector<Entry> all = {
         {"E-01", zDecode},
         {"E-02", bumpScale},
+        {"E-03", heightDerivatives},
         {"E-06", normalBlends},
     };
     return all;

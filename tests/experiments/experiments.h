@@ -7,6 +7,7 @@ namespace relief::experiments {
 
 Experiment zDecode(Effort effort);
 Experiment bumpScale(Effort effort);
+Experiment heightDerivatives(Effort effort);
 Experiment normalBlends(Effort effort);
 
 // A number with so many digits after the point.
