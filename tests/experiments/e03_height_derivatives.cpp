@@ -246,7 +246,6 @@ template <class Method>
 void add(Experiment& e, const std::string& name, Method method, double fetches, int bits, double delta, Filter filter,
          Effort effort)
 {
-    const HeightWave along{64.0, 0.0}, across{64.0, std::numbers::pi / 4.0};
     const auto on = [=](const HeightWave& wave) {
         return OnHeights<Method>{method, std::make_shared<const Heights>(wave, bits, filter), Float(delta)};
     };
@@ -254,10 +253,12 @@ void add(Experiment& e, const std::string& name, Method method, double fetches, 
                                   (delta < 1.0 ? "1/" + number(1.0 / delta, 0) : number(delta, 0)) +
                                   (filter == Filter::nearest ? ", nearest" : "");
     const int count = effort.samples(kPoints, 2048);
-    e.variants.push_back(laneVariant<2>(name, parameter, randomColumns({{0.0, 256.0}, {0.0, 256.0}}), on(along), [=] {
-        return Outcome(errorOf(on(along), along, count),
-                       {{"fetches", fetches}, {"RMS, wave across", errorOf(on(across), across, count).rms}});
-    }));
+    e.variants.push_back(
+        laneVariant<2>(name, parameter, randomColumns({{0.0, 256.0}, {0.0, 256.0}}), on(kWaveAlong), [=] {
+            return Outcome(
+                errorOf(on(kWaveAlong), kWaveAlong, count),
+                {{"fetches", fetches}, {"RMS, wave across", errorOf(on(kWaveAcross), kWaveAcross, count).rms}});
+        }));
 }
 
 }  // namespace

@@ -8,10 +8,8 @@ namespace relief::experiments {
 const std::vector<Entry>& experiments()
 {
     static const std::vector<Entry> all = {
-        {"E-01", zDecode},
-        {"E-02", bumpScale},
-        {"E-03", heightDerivatives},
-        {"E-06", normalBlends},
+        {"E-01", zDecode},        {"E-02", bumpScale},   {"E-03", heightDerivatives},
+        {"E-04", bakedNormalMap}, {"E-05", normalizing}, {"E-06", normalBlends},
     };
     return all;
 }

@@ -8,6 +8,8 @@ namespace relief::experiments {
 Experiment zDecode(Effort effort);
 Experiment bumpScale(Effort effort);
 Experiment heightDerivatives(Effort effort);
+Experiment bakedNormalMap(Effort effort);
+Experiment normalizing(Effort effort);
 Experiment normalBlends(Effort effort);
 
 // A number with so many digits after the point.

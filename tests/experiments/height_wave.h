@@ -25,6 +25,8 @@ struct HeightWave
 };
 
 inline constexpr int kWaveTexels = 256;  // on a side
+// Both fit the texture a whole number of times.
+inline const HeightWave kWaveAlong, kWaveAcross{64.0 / std::numbers::sqrt2, std::numbers::pi / 4.0};
 
 // To so many bits, as a file stores it; 0: not at all.
 inline double quantized(double value, int bits)
