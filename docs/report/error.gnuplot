@@ -27,5 +27,11 @@ set key outside right top font ",11"
 set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05
 set xlabel "RMS error in ".unit." (".gprintf("10^{%T}", smallest)." stands for exact)"
 set ylabel "ns per ".item
-plot for [r = 1:words(names)] table using (X[r]):(Y[r]) every ::0::0 \
-         with points linecolor r pointtype (4 + r % 10) pointsize 1.3 linewidth 2 title word(names, r)
+# Of many variants only those of the front have a name.
+many = words(names) > 24
+isOnFront(r) = sum [k = 1:words(front)] (int(word(front, k)) + 1 == r)
+plot for [r = 1:words(names)] table using (many && !isOnFront(r) ? X[r] : NaN):(Y[r]) every ::0::0 \
+         with points linecolor "gray70" pointtype 7 pointsize 0.5 notitle, \
+     for [r = 1:words(names)] table using (!many || isOnFront(r) ? X[r] : NaN):(Y[r]) every ::0::0 \
+         with points linecolor r pointtype (4 + r % 10) pointsize 1.3 linewidth 2 \
+         title (!many || isOnFront(r) ? word(names, r) : "")

@@ -13,6 +13,7 @@
 
 #include "hlsl/signature.h"
 #include "lanes/active.h"
+#include "leave_out.h"
 #include "pipeline/interpolate.h"
 #include "pipeline/output_merger.h"
 #include "pipeline/raster.h"
@@ -173,7 +174,7 @@ private:
     {
         const int index = tile.blockAt(block.x, block.y);
         DepthBounds& bounds = tile.bounds(index);
-        if (isHidden<state.depthTest>(triangle.nearest, triangle.farthest, bounds)) {
+        if (leavesOut::hidden && isHidden<state.depthTest>(triangle.nearest, triangle.farthest, bounds)) {
             counts.hidden += static_cast<unsigned>(std::popcount(block.coverage));
             return;
         }
@@ -195,10 +196,10 @@ private:
         if constexpr (kUsesDepth && !kMayDiscard) {
             testAndWriteDepth();
             counts.hidden += static_cast<unsigned>(std::popcount(block.coverage) - count(live));
-            if (none(live)) return;
+            if (leavesOut::hidden && none(live)) return;
         }
 
-        const unsigned quads = wholeQuads(live.bits());
+        const unsigned quads = wholeQuads(leavesOut::hidden ? live.bits() : block.coverage);
         activeLanes = quads;
         counts.blocks += 1;
         counts.quads += static_cast<unsigned>(std::popcount(quads)) / 4;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "leave_out.h"
 #include "pipeline/line.h"
 #include "pipeline/setup.h"
 
@@ -250,7 +251,7 @@ void Frame::Storage::drawTile(int tileIndex, Worker& worker)
     const Rectangle pixels = tilePixels(tileIndex);
     if (!worker.tile) worker.tile = std::make_unique<Tile>(grid.tileSize, target.format());
     if (clearColor) {
-        if (!touched) {
+        if (leavesOut::tiles && !touched) {
             clearRectangle(target, pixels, *clearColor, clearDepth);
             return;
         }

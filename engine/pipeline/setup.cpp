@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "lanes/double.h"
+#include "leave_out.h"
 #include "pipeline/clip.h"
 #include "pipeline/edge_function.h"
 #include "pipeline/viewport_transform.h"
@@ -50,7 +51,8 @@ void sortOut(const DrawGeometry& draw, const std::uint32_t* index, unsigned lane
     } else if ((c0 & c1 & c2 & vertex_code::anyOutside) != 0) {
         ++statistics.outside;
     } else {
-        ((some & vertex_code::mustClip) != 0 ? batch.clipped : batch.unclipped) |= 1u << lane;
+        const bool clips = !leavesOut::clipping || (some & vertex_code::mustClip) != 0;
+        (clips ? batch.clipped : batch.unclipped) |= 1u << lane;
     }
 }
 
@@ -74,7 +76,7 @@ Batch gather(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count,
     Batch batch;
     unsigned some = 0;
     for (std::uint32_t i = 0; i < corners; ++i) some |= draw.codes[index[i]];
-    if (inRange && some == 0) {
+    if (leavesOut::clipping && inRange && some == 0) {
         batch.unclipped = count < kLanes ? (1u << count) - 1 : kAllLanes;
     } else {
         for (std::uint32_t i = 0; i < count; ++i) sortOut(draw, indices + 3 * i, i, batch, statistics);

@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "lanes/active.h"
+#include "leave_out.h"
 #include "texture/fetch.h"
 #include "texture/sampler.h"
 
@@ -94,7 +95,7 @@ template <class Fetch>
 // A border has an alpha of its own.
 inline bool leavesOutAlpha(const Place& place, const MipLevel& level)
 {
-    return level.isOpaque() && !hasBorder(place.sampler);
+    return leavesOut::alpha && level.isOpaque() && !hasBorder(place.sampler);
 }
 
 template <class Fetch>
@@ -144,7 +145,9 @@ template <class Fetch>
 [[gnu::always_inline]] inline float4 sampleLevels(const Place& place, int k, Int fraction, unsigned lanes)
 {
     const MipLevel& finer = place.texture.level(k);
-    if (place.sampler.filter != Filter::trilinear || ((fraction != 0).bits() & lanes) == 0) {
+    const bool hasOneLevel =
+        leavesOut::coarserLevel ? ((fraction != 0).bits() & lanes) == 0 : k + 1 == place.texture.levelCount();
+    if (place.sampler.filter != Filter::trilinear || hasOneLevel) {
         return sampleLevel<Fetch>(place, finer);
     }
     const MipLevel& coarser = place.texture.level(k + 1);

@@ -8,6 +8,7 @@
 #include "hlsl/derivatives.h"
 #include "hlsl/intrinsics.h"
 #include "lanes/active.h"
+#include "leave_out.h"
 #include "texture/filter.h"
 #include "texture/level_of_detail.h"
 
@@ -125,7 +126,7 @@ inline float4 sampleFinestCounted(const sampler2D& s, const Texture& texture, Fl
     countSample(s);
     countLevels(s, onFinest, ((fixed & (kLodOne - 1)) == 0).bits());
     if (isAnisotropic(s)) fetchCounters.taps += countOf(activeLanes);  // tex2Dlod
-    if ((wantedLanes() & ~onFinest) == 0) return sampleFinest(s, texture, u, v);
+    if (leavesOut::coarserLevel && (wantedLanes() & ~onFinest) == 0) return sampleFinest(s, texture, u, v);
     return sampleMipChain(s, texture, u, v, fixed, guess);
 }
 
@@ -175,7 +176,7 @@ inline float2 toTexels(const Texture& texture, const float2& change)
 
 inline bool isConstant(const sampler2D& s, const Texture& texture)
 {
-    return texture.isConstant() && !hasBorder(s);
+    return leavesOut::constants && texture.isConstant() && !hasBorder(s);
 }
 
 // The coordinate's change from one pixel to the next.
@@ -194,7 +195,8 @@ template <class Bias>
 inline bool isMagnified(const sampler2D& s, Float square, Bias wholeBias)
 {
     const unsigned wanted = wantedLanes();
-    return s.minLod <= 0.0f && allAtMost(square, 1.0f, wanted) && allAtMost(wholeBias, 0.0f, wanted);
+    return leavesOut::logarithms && s.minLod <= 0.0f && allAtMost(square, 1.0f, wanted) &&
+           allAtMost(wholeBias, 0.0f, wanted);
 }
 
 // `bias` is without the sampler's own, a float or one per lane.
@@ -319,7 +321,7 @@ float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod)
 float4 tex2DWhere(Mask needed, const sampler2D& s, const float2& uv)
 {
     const unsigned outside = activeLanes;
-    activeLanes = outside & needed.bits();
+    if (leavesOut::planes) activeLanes = outside & needed.bits();
     float4 color(0.0f);
     if (activeLanes != 0) color = select(needed, tex2D(s, uv), color);
     activeLanes = outside;

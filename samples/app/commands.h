@@ -55,12 +55,13 @@ Expected<Size> parseSize(const std::string& text);
 struct ReportOptions
 {
     std::string name, output = "docs/report";
-    std::string size;            // empty: the report's own
-    int rounds = 0;              // 0: the report's own
-    std::string countedProgram;  // empty: instructions are not counted
-    double part = 1.0;           // of `performance`: how far its scalings go, as a part of the whole way
-    std::string only;            // of `error`: one experiment, "E-01"; empty: all
-    bool countOnly = false;      // of `error`: runs each variant between marks for valgrind, and writes nothing
+    std::string size;               // empty: the report's own
+    int rounds = 0;                 // 0: the report's own
+    std::string countedProgram;     // empty: instructions are not counted
+    double part = 1.0;              // of `performance`: how far its scalings go, as a part of the whole way
+    std::string switchableProgram;  // of `leave-out`: a relief of a build with RELIEF_SWITCHES; empty: not counted
+    std::string only;               // of `error`: one experiment, "E-01"; empty: all
+    bool countOnly = false;         // of `error`: runs each variant between marks for valgrind, and writes nothing
 };
 
 Expected<void> list(bool json);

@@ -36,11 +36,26 @@ Quartiles ratio(const Cost& cost, const Cost& reference);
 Expected<std::vector<Cost>> measure(const std::vector<PreparedStage>& stages, Size size, int threads, int rounds,
                                     const std::function<void(int round)>& progress = {});
 
-// Instructions per fragment of a whole frame, all stages of the pipeline included: valgrind counts those of a run of
-// `program bench --frames 3` and of one of `--frames 2`, and the difference is one frame's. The first frame, which
-// builds mip levels, is in both. `program` is a relief whose instructions valgrind knows: not AVX-512. The same number
-// every time. One thread, whatever the options say.
-Expected<double> instructionsPerFragment(const std::string& program, const RenderOptions& options);
+// --- instructions, counted by valgrind: the processor's own counters are out of reach in most virtual machines ---
+
+// Runs `work`. Under valgrind its instructions are counted, and nothing else is.
+void runCounted(const std::function<void()>& work);
+
+// The instructions of each work that `program arguments` runs in that way, in order, and what it prints. `program` is a
+// relief whose instructions valgrind knows (not AVX-512) and that was built with valgrind's headers at hand.
+// `environment`, "NAME=value", may be empty. The same numbers every time.
+struct Counts
+{
+    std::vector<double> instructions;
+    std::string output;
+};
+Expected<Counts> countInstructions(const std::string& program, const std::string& arguments,
+                                   const std::string& environment = "");
+
+// Instructions per fragment of a whole frame, all stages of the pipeline included, with mip levels built and caches
+// filled by a frame before it. On one thread, whatever the options say.
+Expected<double> instructionsPerFragment(const std::string& program, const RenderOptions& options,
+                                         const std::string& environment = "");
 
 // A number as printf writes it.
 std::string text(const char* format, double number);

@@ -1,42 +1,13 @@
 // explain: what drawing a stage took, and what was left out, as counted while it ran.
 #include <cstdio>
-#include <set>
 
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
+#include "usage.h"
 
 namespace relief::samples {
 
 namespace {
-
-// Components (floats) that the stage's draws interpolate, and those that some pixel depends on: found by drawing the
-// picture again with one component after the other replaced by NaN.
-struct SlotUse
-{
-    int declared = 0, used = 0;
-};
-
-// Mip levels that exist in memory and that would, if every texture had its whole chain: of the stage's inputs and of
-// the textures that it made.
-struct MipUse
-{
-    int built = 0, whole = 0;
-};
-
-MipUse mipUse(const LoadedInputs& inputs, const SceneLog& log)
-{
-    std::set<const Texture*> textures = log.textures;
-    for (const auto& texture : {inputs.albedo, inputs.height, inputs.normal, inputs.detail, inputs.detailNormal}) {
-        if (texture) textures.insert(texture.get());
-    }
-    MipUse use;
-    for (const Texture* texture : textures) {
-        use.built += texture->levelsBuilt();
-        use.whole += texture->levelCount();
-    }
-    return use;
-}
 
 struct Row
 {
@@ -53,8 +24,9 @@ std::string percent(std::uint64_t part, std::uint64_t whole)
     return buffer;
 }
 
-std::vector<Row> rows(const Statistics& s, const SlotUse& slots, const MipUse& mips)
+std::vector<Row> rows(const Usage& usage)
 {
+    const Statistics& s = usage.statistics;
     return {
         {"passes (draws)", s.draws, ""},
         {"vertices shaded", s.verticesShaded, ""},
@@ -72,10 +44,10 @@ std::vector<Row> rows(const Statistics& s, const SlotUse& slots, const MipUse& m
         {"pixels shaded", s.pixelsShaded, percent(s.pixelsShaded, s.blocksShaded * kLanes) + " of the lanes that ran"},
         {"pixels hidden", s.pixelsHidden, "failed the depth test before any shading"},
         {"invalid colours", s.invalidColors, "NaN or infinite, replaced"},
-        {"components used", static_cast<std::uint64_t>(slots.used),
-         slots.used == slots.declared
+        {"components used", static_cast<std::uint64_t>(usage.componentsUsed),
+         usage.componentsUsed == usage.componentsDeclared
              ? "all that are declared"
-             : "of " + std::to_string(slots.declared) + " declared; no pixel depends on the others"},
+             : "of " + std::to_string(usage.componentsDeclared) + " declared; no pixel depends on the others"},
         {"texture fetches, nearest", s.fetches.nearest, ""},
         {"texture fetches, bilinear", s.fetches.bilinear, ""},
         {"texture fetches, trilinear", s.fetches.trilinear, ""},
@@ -83,7 +55,7 @@ std::vector<Row> rows(const Statistics& s, const SlotUse& slots, const MipUse& m
         {"  second mip level left out", s.fetches.secondLevelSkipped, "the level of detail was a whole number, or 0"},
         {"  magnified, finest level only", s.fetches.magnified, ""},
         {"  constant textures, no fetch", s.fetches.constant, ""},
-        {"mip levels built", static_cast<std::uint64_t>(mips.built), "of " + std::to_string(mips.whole)},
+        {"mip levels built", static_cast<std::uint64_t>(usage.levelsBuilt), "of " + std::to_string(usage.levelsWhole)},
     };
 }
 
@@ -95,21 +67,9 @@ Expected<void> explain(const RenderOptions& options, bool json)
     if (!size) return tl::unexpected(size.error());
     const Expected<PreparedStage> prepared = prepare(options);
     if (!prepared) return tl::unexpected(prepared.error());
-    Expected<Framebuffer> target = Framebuffer::create(size->width, size->height, ColorFormat::rgba32f);
-    if (!target) return tl::unexpected(target.error());
-
-    Frame frame(*target, {.threads = options.threads});
-    prepared->record(frame, size->width, size->height);
-    const Statistics statistics = frame.run();
-    const MipUse mips = mipUse(*prepared->inputs, *prepared->log);
-
-    SlotUse slots;
-    for (int draw = 0; draw < frame.drawCount(); ++draw) {
-        slots.declared += frame.componentCount(draw);
-        for (int c = 0; c < frame.componentCount(draw); ++c) slots.used += frame.dependsOn(draw, c) ? 1 : 0;
-    }
-
-    const std::vector<Row> table = rows(statistics, slots, mips);
+    const Expected<Usage> usage = usageOf(*prepared, *size, options.threads);
+    if (!usage) return tl::unexpected(usage.error());
+    const std::vector<Row> table = rows(*usage);
     if (json) {
         nlohmann::json all = {{"stage", prepared->stage->id}, {"stem", prepared->stage->stem}, {"lanes", kLanes}};
         for (const Row& row : table) {

@@ -1,21 +1,21 @@
 // Instructions, counted by valgrind, since the processor's own counters are out of reach in most virtual machines.
-#include <charconv>
+#include <atomic>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
-#include <sstream>
+#include <fstream>
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "cost.h"
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#endif
 
 namespace relief::samples {
 
 namespace {
-
-struct Count
-{
-    std::uint64_t instructions = 0, pixels = 0;
-};
 
 // The options of a command that draws the same picture on one thread.
 std::string arguments(const RenderOptions& options)
@@ -40,34 +40,18 @@ std::string arguments(const RenderOptions& options)
     return all;
 }
 
-std::uint64_t numberAt(const std::string& text, std::size_t at)
+// valgrind writes the counts of dump k to FOLDER/counts.k, on a line "totals: 1234".
+std::vector<double> dumpedCounts(const std::filesystem::path& folder)
 {
-    std::uint64_t number = 0;
-    std::from_chars(text.data() + std::min(at, text.size()), text.data() + text.size(), number);
-    return number;
-}
-
-// The program prints the pixels on a line of their own, valgrind "==1234== Collected : 5678" at the end.
-Expected<Count> count(const std::string& program, const RenderOptions& options, int frames)
-{
-    const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null " + quoted(program) +
-                                " bench" + arguments(options) + " --frames " + std::to_string(frames);
-    const std::optional<std::string> output = outputOf(command);
-    Count result;
-    std::stringstream lines(output.value_or(""));
-    const std::string collected = "Collected : ";
-    for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with("==")) {
-            const std::size_t at = line.find(collected);
-            if (at != std::string::npos) result.instructions = numberAt(line, at + collected.size());
-        } else if (line.find_first_not_of("0123456789") == std::string::npos) {
-            result.pixels = numberAt(line, 0);
+    std::vector<double> counts;
+    for (int k = 1;; ++k) {
+        std::ifstream file(folder / ("counts." + std::to_string(k)));
+        if (!file) return counts;
+        const std::string totals = "totals: ";
+        for (std::string line; std::getline(file, line);) {
+            if (line.starts_with(totals)) counts.push_back(std::strtod(line.c_str() + totals.size(), nullptr));
         }
     }
-    if (result.instructions == 0 || result.pixels == 0) {
-        return fail("instructions were not counted; run this to see why: " + command);
-    }
-    return result;
 }
 
 }  // namespace
@@ -91,7 +75,24 @@ std::optional<std::string> outputOf(const std::string& command)
     return output;
 }
 
-Expected<double> instructionsPerFragment(const std::string& program, const RenderOptions& options)
+#if __has_include(<valgrind/callgrind.h>)
+void runCounted(const std::function<void()>& work)
+{
+    CALLGRIND_START_INSTRUMENTATION;
+    CALLGRIND_ZERO_STATS;
+    work();
+    CALLGRIND_DUMP_STATS;
+    CALLGRIND_STOP_INSTRUMENTATION;
+}
+#else
+void runCounted(const std::function<void()>& work)
+{
+    work();
+}
+#endif
+
+Expected<Counts> countInstructions(const std::string& program, const std::string& arguments,
+                                   const std::string& environment)
 {
     if (!std::filesystem::is_regular_file(program)) {
         return fail("--counted-program " + program + ": there is no such program; `./relief bench --instructions` " +
@@ -100,11 +101,33 @@ Expected<double> instructionsPerFragment(const std::string& program, const Rende
     if (!outputOf("valgrind --version")) {
         return fail("instructions cannot be counted: valgrind does not run; install valgrind, or leave the option out");
     }
-    const Expected<Count> two = count(program, options, 2);
-    if (!two) return tl::unexpected(two.error());
-    const Expected<Count> three = count(program, options, 3);
-    if (!three) return tl::unexpected(three.error());
-    return static_cast<double>(three->instructions - two->instructions) / static_cast<double>(three->pixels);
+    static std::atomic<int> runs = 0;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() /
+                                         ("relief-counts-" + std::to_string(getpid()) + "-" + std::to_string(runs++));
+    std::error_code ignored;
+    std::filesystem::create_directories(folder, ignored);
+    const std::string command = environment + " valgrind -q --tool=callgrind --instr-atstart=no " +
+                                "--callgrind-out-file=" + quoted((folder / "counts").string()) + " " + quoted(program) +
+                                " " + arguments;
+    const std::optional<std::string> output = outputOf(command);
+    Counts counts{dumpedCounts(folder), output.value_or("")};
+    std::filesystem::remove_all(folder, ignored);
+    if (!output || counts.instructions.empty()) {
+        return fail("instructions were not counted, by a program built before valgrind was installed, or: " + command);
+    }
+    return counts;
+}
+
+// The program prints the pixels of a frame.
+Expected<double> instructionsPerFragment(const std::string& program, const RenderOptions& options,
+                                         const std::string& environment)
+{
+    const Expected<Counts> counts =
+        countInstructions(program, "bench" + arguments(options) + " --frames 2", environment);
+    if (!counts) return tl::unexpected(counts.error());
+    const double pixels = std::strtod(counts->output.c_str(), nullptr);
+    if (!(pixels > 0.0)) return fail("instructions were not counted: " + program + " printed " + counts->output);
+    return counts->instructions[0] / pixels;
 }
 
 }  // namespace relief::samples

@@ -192,7 +192,7 @@ int main(int argc, char** argv)
         ->add_option("name", reportOptions.name,
                      "triplanar: what each way to map normals costs, beside its error; performance: how cost grows "
                      "with pixels, triangles, threads, lights and textures; error: every approximation's error "
-                     "beside its run time")
+                     "beside its run time; leave-out: what each stage did not need, and what that saved")
         ->required();
     command->add_option("--output", reportOptions.output, "The folder")->capture_default_str()->type_name("DIR");
     command
@@ -212,8 +212,13 @@ int main(int argc, char** argv)
     command->add_option("--only", reportOptions.only, "Of error: one experiment, by its number")->type_name("E-01");
     command->add_flag("--count-only", reportOptions.countOnly, "What valgrind runs to count instructions")->group("");
     command
-        ->add_option("--counted-program", reportOptions.countedProgram,
-                     "Of triplanar and error: the relief that instructions are counted in; ./relief builds one")
+        ->add_option(
+            "--counted-program", reportOptions.countedProgram,
+            "Of triplanar, error and leave-out: the relief that instructions are counted in; ./relief builds one")
+        ->type_name("FILE");
+    command
+        ->add_option("--switchable-program", reportOptions.switchableProgram,
+                     "Of leave-out: a relief in which what is left out can be put back; ./relief builds one")
         ->type_name("FILE");
     command->callback([&] { result = report(reportOptions); });
 

@@ -23,7 +23,8 @@ struct Report
 
 constexpr Report kReports[] = {{"triplanar", reportTriplanar, "960x540", 31},
                                {"performance", reportPerformance, "1920x1080", 5},
-                               {"error", reportError, "960x540", 15}};
+                               {"error", reportError, "960x540", 15},
+                               {"leave-out", reportLeaveOut, "480x270", 1}};
 
 Expected<const Report*> findReport(const std::string& name)
 {

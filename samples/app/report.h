@@ -7,6 +7,7 @@ namespace relief::samples {
 
 // One for each name that `relief report` takes.
 Expected<void> reportTriplanar(const ReportOptions& options);
+Expected<void> reportLeaveOut(const ReportOptions& options);
 Expected<void> reportPerformance(const ReportOptions& options);  // in tests/benchmarks
 Expected<void> reportError(const ReportOptions& options);        // in tests/experiments
 

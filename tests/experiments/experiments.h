@@ -11,6 +11,10 @@ Experiment heightDerivatives(Effort effort);
 Experiment bakedNormalMap(Effort effort);
 Experiment normalizing(Effort effort);
 Experiment normalBlends(Effort effort);
+Experiment lightingModels(Effort effort);
+Experiment leaveOut(Effort effort);
+Experiment visibilityAndFresnel(Effort effort);
+Experiment litScene(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);

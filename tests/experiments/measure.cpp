@@ -1,18 +1,9 @@
 #include "measure.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <limits>
-
-#include <unistd.h>
 
 #include "cost.h"
-#if __has_include(<valgrind/callgrind.h>)
-#include <valgrind/callgrind.h>
-#endif
 
 namespace relief::experiments {
 
@@ -97,54 +88,12 @@ Rows measure(const Experiment& experiment, int rounds, const Progress& progress)
     return rows;
 }
 
-#if __has_include(<valgrind/callgrind.h>)
-
-Expected<void> runForCounting(const Experiment& experiment)
+void runForCounting(const Experiment& experiment)
 {
     for (const Variant& v : experiment.variants) {
         v.work.run();  // what the first run alone does is not counted
-        CALLGRIND_START_INSTRUMENTATION;
-        CALLGRIND_ZERO_STATS;
-        v.work.run();
-        CALLGRIND_DUMP_STATS;
-        CALLGRIND_STOP_INSTRUMENTATION;
+        samples::runCounted(v.work.run);
     }
-    return {};
-}
-
-#else
-
-Expected<void> runForCounting(const Experiment&)
-{
-    return fail("report error: this build cannot have its instructions counted; install valgrind and build it again");
-}
-
-#endif
-
-// valgrind writes the counts of dump k to counts.k, on a line "totals: 1234".
-Expected<std::vector<double>> countInstructions(const std::string& program, const std::string& id)
-{
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("relief-counts-" + std::to_string(getpid()));
-    std::error_code ignored;
-    std::filesystem::create_directories(folder, ignored);
-    const std::string command = "valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file=" +
-                                samples::quoted((folder / "counts").string()) + " " + samples::quoted(program) +
-                                " report error --count-only --only " + id;
-    const bool ran = samples::outputOf(command).has_value();
-    std::vector<double> counts;
-    for (int k = 1;; ++k) {
-        std::ifstream file(folder / ("counts." + std::to_string(k)));
-        if (!file) break;
-        for (std::string line; std::getline(file, line);) {
-            if (line.starts_with("totals: ")) counts.push_back(std::stod(line.substr(8)));
-        }
-    }
-    std::filesystem::remove_all(folder, ignored);
-    if (!ran || counts.empty()) {
-        return fail("report error: instructions were not counted; run this to see why: " + command);
-    }
-    return counts;
 }
 
 }  // namespace relief::experiments

@@ -1,9 +1,8 @@
-// Rows from variants: errors computed, times measured, instructions counted.
+// Rows from variants: errors computed, times measured.
 #pragma once
 
 #include <functional>
 
-#include "error.h"
 #include "experiment.h"
 
 namespace relief::experiments {
@@ -16,11 +15,7 @@ Rows measure(const Experiment& experiment, int rounds, const Progress& progress)
 // Marks the rows that no other row beats: in error (RMS) and time (fastest).
 void markFront(Rows& rows);
 
-// Instructions per item of every variant, in order. valgrind runs `program report error --count-only`, a relief whose
-// instructions it knows (not AVX-512); the same numbers every time.
-Expected<std::vector<double>> countInstructions(const std::string& program, const std::string& id);
-
-// What that program does: runs every variant's work once, between two marks for valgrind.
-Expected<void> runForCounting(const Experiment& experiment);
+// For `relief report error --count-only`, which valgrind runs: every variant's work once, counted.
+void runForCounting(const Experiment& experiment);
 
 }  // namespace relief::experiments

@@ -1,0 +1,44 @@
+#include "usage.h"
+
+#include <set>
+
+namespace relief::samples {
+
+namespace {
+
+void countLevels(const LoadedInputs& inputs, const SceneLog& log, Usage& usage)
+{
+    std::set<const Texture*> textures = log.textures;
+    for (const auto& texture : {inputs.albedo, inputs.height, inputs.normal, inputs.detail, inputs.detailNormal}) {
+        if (texture) textures.insert(texture.get());
+    }
+    for (const Texture* texture : textures) {
+        usage.levelsBuilt += texture->levelsBuilt();
+        usage.levelsWhole += texture->levelCount();
+    }
+}
+
+}  // namespace
+
+Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads)
+{
+    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, ColorFormat::rgba32f);
+    if (!target) return tl::unexpected(target.error());
+    Frame frame(*target, {.threads = threads});
+    stage.record(frame, size.width, size.height);
+    Usage usage;
+    usage.statistics = frame.run();
+    countLevels(*stage.inputs, *stage.log, usage);
+    for (int draw = 0; draw < frame.drawCount(); ++draw) {
+        usage.componentsDeclared += frame.componentCount(draw);
+        for (int c = 0; c < frame.componentCount(draw); ++c) usage.componentsUsed += frame.dependsOn(draw, c) ? 1 : 0;
+    }
+    return usage;
+}
+
+std::uint64_t samplesOf(const FetchCounters& f)
+{
+    return f.nearest + f.bilinear + f.trilinear + f.anisotropic;
+}
+
+}  // namespace relief::samples

@@ -1,0 +1,26 @@
+// What drawing a stage took, as counted while it ran. Behind `explain` and `report leave-out`.
+#pragma once
+
+#include "commands.h"
+
+namespace relief::samples {
+
+struct Usage
+{
+    Statistics statistics;
+
+    // Components (floats) that the stage's draws interpolate, and those that some pixel depends on: found by drawing
+    // the picture again with one component after the other replaced by NaN.
+    int componentsDeclared = 0, componentsUsed = 0;
+
+    // Mip levels that exist in memory and that would, if every texture had its whole chain: of the stage's inputs and
+    // of the textures that it made.
+    int levelsBuilt = 0, levelsWhole = 0;
+};
+
+Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads);
+
+// Every texture sample, of any filter.
+std::uint64_t samplesOf(const FetchCounters& fetches);
+
+}  // namespace relief::samples
