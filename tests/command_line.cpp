@@ -569,6 +569,60 @@ TEST_CASE("command line: report triplanar writes a text, a table and a plot")
     checkRefused(folder.path, "report triplanar --size 64x36 --rounds 1 --output /proc/r", {"/proc/r"});
 }
 
+TEST_CASE("command line: report error writes a page, a table and a plot for each experiment")
+{
+    const TemporaryFolder folder;
+    checkRefused(folder.path, "report triplanar --only E-01", {"--only"});
+    checkRefused(folder.path, "report error --part 0.5", {"--part"});
+    const Outcome outcome = run(folder.path, "report error --only E-01 --rounds 2 --output r");
+    for (const std::string missing : {"install gnuplot-nox", "-DRELIEF_EXPERIMENTS=ON"}) {
+        if (outcome.err.find(missing) == std::string::npos) continue;
+        CHECK(outcome.code == 2);
+        MESSAGE("skipped: " << outcome.err);
+        return;
+    }
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out == "r/error/: 1 experiments\n");
+    CHECK(contents(folder.path / "r/error/E-01.svg").find("</svg>") != std::string::npos);
+    const std::string text = contents(folder.path / "r/error/E-01.md");
+    CHECK(text.starts_with("# E-01 The z of a stored normal\n\n    ./relief report error --rounds 2 --only E-01\n"));
+    for (const std::string part : {"processor: ", "compiler: ", "commit: ", "Dominated", "## Against reference values"})
+        CHECK(text.find(part) != std::string::npos);
+    CHECK(text.find("does not") == std::string::npos);
+
+    std::stringstream table(contents(folder.path / "r/error/E-01.csv"));
+    int rows = 0;
+    for (std::string line; std::getline(table, line); ++rows) {
+        CHECK(std::count(line.begin(), line.end(), ',') == 19);
+        CHECK(line.starts_with(rows == 0 ? "exp,variant,param,n,err_max," : "E-01,"));
+    }
+    CHECK(rows == 7);
+    checkRefused(folder.path, "report error --only E-99", {"E-99"});
+    checkRefused(folder.path, "report error --only E-01 --rounds 1 --counted-program nothing", {"nothing"});
+}
+
+TEST_CASE("command line: report leave-out counts for every stage what it did not need")
+{
+    const TemporaryFolder folder;
+    checkRefused(folder.path, "report leave-out --size 96x54 --counted-program relief", {"--switchable-program"});
+    checkRefused(folder.path, "report leave-out --size 0x1", {"0x1"});
+#if !defined(RELIEF_SHORT_TESTS)
+    const Outcome outcome = run(folder.path, "report leave-out --size 96x54 --output r");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out == "r/leave-out.md and .csv\n");
+    const std::string text = contents(folder.path / "r/leave-out.md");
+    CHECK(text.starts_with("# What was left out\n\n    ./relief report leave-out --size 96x54\n"));
+    for (const std::string part : {"commit: ", "Not counted", "| 1.25 Lit scene |", "## What each stage did not need"})
+        CHECK(text.find(part) != std::string::npos);
+    std::stringstream table(contents(folder.path / "r/leave-out.csv"));
+    std::size_t rows = 0;
+    for (std::string line; std::getline(table, line); ++rows) CHECK(std::count(line.begin(), line.end(), ',') == 15);
+    CHECK(rows == samples::allStages().size() + 1);
+#endif
+}
+
 TEST_CASE("command line: report performance writes a text, a table and a plot")
 {
     const TemporaryFolder folder;

@@ -74,6 +74,7 @@ std::string reportHead(const std::string& title, const ReportOptions& options)
     if (options.size != usual.size) command += " --size " + options.size;
     if (options.rounds != usual.rounds) command += " --rounds " + std::to_string(options.rounds);
     if (options.part < 1.0) command += " --part " + text("%g", options.part);
+    if (!options.only.empty()) command += " --only " + options.only;
     return "# " + title + "\n\n    " + command + "\n\n- processor: " + processor() +
            "\n- lanes: " + std::to_string(kLanes) + "\n- compiler: " + compiler() + "\n- commit: " + reportCommit() +
            "\n";
