@@ -55,10 +55,12 @@ Expected<Size> parseSize(const std::string& text);
 struct ReportOptions
 {
     std::string name, output = "docs/report";
-    std::string size;            // empty: the report's own
-    int rounds = 0;              // 0: the report's own
-    std::string countedProgram;  // empty: instructions are not counted
-    double part = 1.0;           // of `performance`: how far its scalings go, as a part of the whole way
+    std::string size;                // empty: the report's own
+    int rounds = 0;                  // 0: the report's own
+    std::string countedProgram;      // empty: instructions are not counted
+    double part = 1.0;               // of `performance`: how far its scalings go, as a part of the whole way
+    std::string tests;               // of `stability`: the test program
+    std::vector<std::string> cases;  // of `stability`: these alone; none: all
 };
 
 Expected<void> list(bool json);

@@ -191,7 +191,8 @@ int main(int argc, char** argv)
     command
         ->add_option("name", reportOptions.name,
                      "triplanar: what each way to map normals costs, beside its error; performance: how cost grows "
-                     "with pixels, triangles, threads, lights and textures")
+                     "with pixels, triangles, threads, lights and textures; stability: what extreme inputs do, "
+                     "measured against bounds")
         ->required();
     command->add_option("--output", reportOptions.output, "The folder")->capture_default_str()->type_name("DIR");
     command
@@ -212,6 +213,11 @@ int main(int argc, char** argv)
         ->add_option("--counted-program", reportOptions.countedProgram,
                      "Of triplanar: the relief that instructions are counted in; ./relief builds one")
         ->type_name("FILE");
+    command->add_option("--tests", reportOptions.tests, "Of stability: the test program; ./relief builds it")
+        ->type_name("FILE");
+    command->add_option("--case", reportOptions.cases, "Of stability: one case alone, such as S-301; may be repeated")
+        ->type_name("ID")
+        ->allow_extra_args(false);
     command->callback([&] { result = report(reportOptions); });
 
     try {

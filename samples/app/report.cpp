@@ -22,7 +22,8 @@ struct Report
 };
 
 constexpr Report kReports[] = {{"triplanar", reportTriplanar, "960x540", 31},
-                               {"performance", reportPerformance, "1920x1080", 5}};
+                               {"performance", reportPerformance, "1920x1080", 5},
+                               {"stability", reportStability, "", 0}};
 
 Expected<const Report*> findReport(const std::string& name)
 {
@@ -72,6 +73,7 @@ std::string reportHead(const std::string& title, const ReportOptions& options)
     if (options.size != usual.size) command += " --size " + options.size;
     if (options.rounds != usual.rounds) command += " --rounds " + std::to_string(options.rounds);
     if (options.part < 1.0) command += " --part " + text("%g", options.part);
+    for (const std::string& id : options.cases) command += " --case " + id;
     return "# " + title + "\n\n    " + command + "\n\n- processor: " + processor() +
            "\n- lanes: " + std::to_string(kLanes) + "\n- compiler: " + compiler() + "\n- commit: " + commit() + "\n";
 }
@@ -117,6 +119,9 @@ Expected<void> report(const ReportOptions& options)
 {
     const Expected<const Report*> found = findReport(options.name);
     if (!found) return tl::unexpected(found.error());
+    if (options.name != "stability" && !(options.tests.empty() && options.cases.empty())) {
+        return fail("report " + options.name + ": --tests and --case belong to report stability");
+    }
     ReportOptions complete = options;
     if (complete.size.empty()) complete.size = (*found)->size;
     if (complete.rounds == 0) complete.rounds = (*found)->rounds;

@@ -8,6 +8,7 @@ namespace relief::samples {
 // One for each name that `relief report` takes.
 Expected<void> reportTriplanar(const ReportOptions& options);
 Expected<void> reportPerformance(const ReportOptions& options);  // in tests/benchmarks
+Expected<void> reportStability(const ReportOptions& options);
 
 // The lines that a report begins with: title, the command that made it, the machine, the compiler and the commit.
 std::string reportHead(const std::string& title, const ReportOptions& options);
