@@ -302,6 +302,18 @@ TEST_CASE("image: an unknown chunk of a PNG whose type has line ends in it is an
     CHECK(error.find('\n') == std::string::npos);
 }
 
+TEST_CASE("image: an empty chunk of compressed data before the full one changes nothing")
+{
+    const TemporaryFolder folder;
+    const std::vector<std::uint8_t> pixels = noisyPixels(63);
+    REQUIRE(writePng(folder / "a.png", 9, 7, pixels).has_value());
+    const std::string bytes = bytesOf(folder / "a.png");
+    const Expected<ImageFile> image =
+        readImage(folder.write("b.png", bytes.substr(0, 33) + chunk("IDAT", "") + bytes.substr(33)));
+    REQUIRE(image.has_value());
+    CHECK(std::get<Image8>(*image).pixels == pixels);
+}
+
 TEST_CASE("image: a JPEG whose Huffman table is too long")
 {
     const TemporaryFolder folder;
