@@ -84,9 +84,9 @@ TEST_CASE("bin: tiles get exactly the triangles that no edge keeps out, in order
                 needless += !kept && !alone;
             }
         }
-        CHECK(missing == 0);
-        CHECK(needless == 0);
-        CHECK(unordered == 0);
+        measured("pairs of a triangle and a tile that are missing", missing, 0);
+        measured("needless pairs", needless, 0);
+        measured("pairs out of order", unordered, 0);
     }
 }
 

@@ -163,7 +163,7 @@ TEST_CASE("clip: cutting next to a corner stays within the edge (S-201)")
             wrong += !std::isfinite(end.x);
         }
     }
-    CHECK(wrong == 0);
+    measured("coordinates outside of their edge's box", wrong, 0);
 }
 
 TEST_CASE("clip: two triangles cut their shared edge at the same bits (S-202)")
@@ -195,7 +195,7 @@ TEST_CASE("clip: two triangles cut their shared edge at the same bits (S-202)")
         wrong += mine.size() != theirs.size();
         for (const glm::vec4& p : mine) wrong += std::find(theirs.begin(), theirs.end(), p) == theirs.end();
     }
-    CHECK(wrong == 0);
+    measured("cuts of a shared edge that differ", wrong, 0);
     CHECK(cuts > trials(100000) / 2);
 }
 
@@ -206,7 +206,8 @@ TEST_CASE("clip: a triangle through all six planes with the frustum inside cover
     for (const int size : {16, 64, 100}) {
         Framebuffer target = makeTarget(size, size);
         const Statistics statistics = drawClip(target, meshOf(a, b, c));
-        CHECK(pixelsNotEqualTo(target, 1.0f) == 0);  // the fan's inner edges are no holes and hit nothing twice
+        measured("pixels not covered once", pixelsNotEqualTo(target, 1.0f),
+                 0);  // the fan's inner edges are no holes and hit nothing twice
         CHECK(statistics.trianglesClipped == 1);
         checkInvariants(target, statistics);
     }
@@ -222,7 +223,8 @@ TEST_CASE("clip: a triangle through all six planes with the frustum inside cover
         most = std::max(most, clipTriangle(corners, {1.0f, 1.0f, true}, polygon));
     }
     CHECK(most >= 7);
-    CHECK(most <= kMaxClippedVertices);
+    measured("corners of a clipped polygon", most, 9);
+    CHECK(9 <= kMaxClippedVertices);
 }
 
 TEST_CASE("clip: random triangles through the near plane, the eye plane and the guard band lie where they should")
@@ -300,7 +302,7 @@ TEST_CASE("clip: corners at 1e30 and 3.4e34 leave the visible edges in place (S-
         finite = finite && allFinite(target);
         sums = sums && addsUp(statistics);
     }
-    CHECK(wrong == 0);
+    measured("pixels wrong by more than 1/32 px", wrong, 0);
     CHECK(drawn > trials(3000) / 10);
     CHECK(finite);
     CHECK(sums);
@@ -347,7 +349,7 @@ TEST_CASE("clip: w = 0 in one, two and three corners (S-104)")
             }
         }
     }
-    CHECK(wrong == 0);
+    measured("pixels wrong", wrong, 0);
     CHECK(drawn > trials(2000) / 4);
 }
 
@@ -363,7 +365,7 @@ TEST_CASE("clip: no mirrored ghost from behind the eye, nothing from a subnormal
                 depthClip
                     ? drawClip(target, mesh)
                     : drawClip<RenderState{Compare::always, false, false, Cull::none, Blend::additive}>(target, mesh);
-            CHECK(drawnPixels(target) == 0);
+            measured("pixels drawn", drawnPixels(target), 0);
             CHECK(statistics.outside == 1);
             checkInvariants(target, statistics);
         }
@@ -371,7 +373,7 @@ TEST_CASE("clip: no mirrored ghost from behind the eye, nothing from a subnormal
     // One subnormal corner among ordinary ones.
     const glm::vec4 a = {-0.5f, -0.5f, 0, 1}, b = {0.1f, 0.5f, 0, 1e-40f}, c = {0.5f, -0.5f, 0, 1};
     const Statistics statistics = drawClip(target, meshOf(a, b, c));
-    CHECK(wrongPixels(target, HomogeneousTriangle(a, b, c, {0, 0, 32, 32})) == 0);
+    measured("pixels wrong by more than 1/32 px", wrongPixels(target, HomogeneousTriangle(a, b, c, {0, 0, 32, 32})), 0);
     CHECK(drawnPixels(target) > 0);
     checkInvariants(target, statistics);
 }
@@ -414,7 +416,7 @@ TEST_CASE("clip: clipping at the viewport instead of at the guard band hardly sh
             wrong += std::fabs(reference.margin(i % 48 + 0.5, i / 48 + 0.5)) > kEdgeTolerance;
         }
     }
-    CHECK(wrong == 0);
+    measured("pixels that differ farther than 1/32 px from an edge", wrong, 0);
     CHECK(compared > trials(3000) / 10);
 }
 
@@ -512,7 +514,7 @@ TEST_CASE("clip: a mesh around the eye covers every pixel once (S-202, S-206, S-
         clipped += statistics.trianglesClipped;
         sums = sums && addsUp(statistics);
     }
-    CHECK(wrong == 0);
+    measured("pixels not covered once", wrong, 0);
     CHECK(sums);
     CHECK(clipped > static_cast<std::uint64_t>(count));
 }
@@ -578,7 +580,7 @@ TEST_CASE("clip: a mesh cut by the near plane in view has no holes and no double
             }
         }
     }
-    CHECK(wrong == 0);
+    measured("pixels not covered once", wrong, 0);
     CHECK(clipped > static_cast<std::uint64_t>(trials(1500)));
 }
 
@@ -594,7 +596,7 @@ TEST_CASE("clip: z at the limits is kept, depth clipping off clamps depth per pi
     constexpr RenderState kClamp = {Compare::always, true, false, Cull::none, Blend::off};
     for (const float z : {0.0f, 0.5f, 1.0f}) {
         const Statistics statistics = draw.template operator()<kClip>(z, z, z);
-        CHECK(pixelsNotEqualTo(target, 1.0f) == 0);
+        measured("pixels not drawn", pixelsNotEqualTo(target, 1.0f), 0);
         CHECK(statistics.trianglesClipped == 0);
         for (const float stored : target.depth()) REQUIRE(stored == z);
     }
@@ -604,7 +606,7 @@ TEST_CASE("clip: z at the limits is kept, depth clipping off clamps depth per pi
     }
     for (const float z : {-1e30f, -3.0f, -1e-6f, 0.0f, 0.25f, 1.0f, 1.0001f, 100.0f, 1e30f}) {
         const Statistics statistics = draw.template operator()<kClamp>(z, z, z);
-        CHECK(pixelsNotEqualTo(target, 1.0f) == 0);
+        measured("pixels not drawn", pixelsNotEqualTo(target, 1.0f), 0);
         CHECK(statistics.trianglesClipped == 0);
         for (const float stored : target.depth()) REQUIRE(stored == std::fmin(std::fmax(z, 0.0f), 1.0f));
         checkInvariants(target, statistics);
@@ -622,7 +624,7 @@ TEST_CASE("clip: z at the limits is kept, depth clipping off clamps depth per pi
                 wrong += std::fabs(stored - std::fmin(std::fmax(z, 0.0), 1.0)) > 8 * 0x1p-24 * scale;
             }
         }
-        CHECK(wrong == 0);
+        measured("depths off by more than 8 * 2^-24", wrong, 0);
     };
     checkRamp(0.0f, 1.0f, 0.5f);
     checkRamp(-1.0f, 2.0f, 0.5f);
@@ -644,7 +646,7 @@ TEST_CASE("clip: depth clipping off still clips behind the eye (S-207)")
         wrong += wrongPixels(target, HomogeneousTriangle(a, b, c, {0, 0, 40, 30}), false);
         fine = fine && addsUp(statistics) && allFinite(target);
     }
-    CHECK(wrong == 0);
+    measured("pixels wrong by more than 1/32 px", wrong, 0);
     CHECK(fine);
 }
 
@@ -677,7 +679,7 @@ TEST_CASE("clip: attributes stay linear over many cuts (S-210)")
             u[0] = 0;
         }
     }
-    CHECK(worst <= 16 * 0x1p-24);
+    measured("error of u after 1000 cuts", worst, 16 * 0x1p-24);
 
     // All planes in sequence, interpolated through the pipeline: u is linear on screen where w is equal.
     struct Case
@@ -707,6 +709,6 @@ TEST_CASE("clip: attributes stay linear over many cuts (S-210)")
         }
         CHECK(drawn > 100);
         // Corners on the pixel grid move u by its slope times 1/512 px, which is tiny here.
-        CHECK(error <= 1e-4);
+        measured("error of u on screen", error, 1e-4);
     }
 }

@@ -623,6 +623,31 @@ TEST_CASE("command line: report leave-out counts for every stage what it did not
 #endif
 }
 
+TEST_CASE("command line: report stability runs the tests of a case and shows what the obvious form draws")
+{
+    const TemporaryFolder folder;
+    const std::string tests = fs::canonical("/proc/self/exe").string();
+    const Outcome outcome = run(folder.path, "report stability --only S-601 --output r --tests '" + tests + "'");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out == "r/stability.md and .csv, and its pictures\n");
+    const std::string text = contents(folder.path / "r/stability.md");
+    CHECK(text.starts_with("# Stability\n\n    ./relief report stability --only S-601\n"));
+    for (const std::string part : {"processor: ", "193 cases", "1 hold, 0 fail", "| S-601 | ", "(2e-07) | holds |",
+                                   "not run", "stability/decoding.png"})
+        CHECK(text.find(part) != std::string::npos);
+    CHECK(relief::readImage(folder.path / "r/stability/decoding.png").has_value());
+    const std::string table = contents(folder.path / "r/stability.csv");
+    CHECK(table.starts_with("id,verdict,what,value,bound\n"));
+    CHECK(table.find("S-601,holds,\"length off 1\",") != std::string::npos);
+
+    checkRefused(folder.path, "report stability", {"--tests"});
+    checkRefused(folder.path, "report stability --tests /bin/false", {"/bin/false"});
+    checkRefused(folder.path, "report stability --only S-10 --tests '" + tests + "'", {"no test has this id"});
+    checkRefused(folder.path, "report stability --rounds 3 --tests '" + tests + "'", {"--rounds"});
+    checkRefused(folder.path, "report triplanar --only S-601", {"--only"});
+}
+
 TEST_CASE("command line: report performance writes a text, a table and a plot")
 {
     const TemporaryFolder folder;

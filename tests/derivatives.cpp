@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "lane_check.h"
+#include "stability.h"
 
 using namespace relief;
 
@@ -162,4 +163,19 @@ TEST_CASE("derivatives: coarse ones of a vector are those of its components")
     CHECK(all(ddx_coarse(v).y == ddx_coarse(b)));
     CHECK(all(ddy_coarse(v).x == ddy_coarse(a)));
     CHECK(all(ddy_coarse(v).y == ddy_coarse(b)));
+}
+
+TEST_CASE("derivatives: S-516 coarse and fine ones are equal on a plane, and a choice by name elsewhere")
+{
+    const Float plane = 3.0f * xs() - 5.0f * ys() + 100.0f;
+    stability::measured("lanes that differ on a plane",
+                        count((ddx(plane) != ddx_coarse(plane)) | (ddy(plane) != ddy_coarse(plane))), 0);
+    // A plane seen in perspective, 8 pixels from the horizon.
+    const Float curved = 1.0f / (8.0f + ys()) * (xs() + 1.0f);
+    CHECK(any(ddx(curved) != ddx_coarse(curved)));
+    double largest = 0.0;
+    for (int i = 0; i < kLanes; ++i) {
+        largest = std::fmax(largest, std::abs(std::log2(static_cast<double>(ddx(curved)[i] / ddx_coarse(curved)[i]))));
+    }
+    stability::noted("levels between the two, 8 pixels from the horizon", largest);
 }

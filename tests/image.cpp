@@ -291,6 +291,29 @@ TEST_CASE("image: damaged compressed data")
     CHECK(contains(errorOf(folder.write("b.png", bytes)), "is damaged"));
 }
 
+TEST_CASE("image: an unknown chunk of a PNG whose type has line ends in it is an error of one line")
+{
+    const TemporaryFolder folder;
+    REQUIRE(writePng(folder / "a.png", 9, 7, noisyPixels(63)).has_value());
+    const std::string bytes = bytesOf(folder / "a.png");
+    const std::string error =
+        errorOf(folder.write("b.png", bytes.substr(0, 33) + chunk("\nA\nB", "data") + bytes.substr(33)));
+    CHECK(contains(error, "is damaged (PNG chunk not known)"));
+    CHECK(error.find('\n') == std::string::npos);
+}
+
+TEST_CASE("image: an empty chunk of compressed data before the full one changes nothing")
+{
+    const TemporaryFolder folder;
+    const std::vector<std::uint8_t> pixels = noisyPixels(63);
+    REQUIRE(writePng(folder / "a.png", 9, 7, pixels).has_value());
+    const std::string bytes = bytesOf(folder / "a.png");
+    const Expected<ImageFile> image =
+        readImage(folder.write("b.png", bytes.substr(0, 33) + chunk("IDAT", "") + bytes.substr(33)));
+    REQUIRE(image.has_value());
+    CHECK(std::get<Image8>(*image).pixels == pixels);
+}
+
 TEST_CASE("image: a JPEG whose Huffman table is too long")
 {
     const TemporaryFolder folder;

@@ -209,9 +209,9 @@ TEST_CASE("interpolate: errors over random triangles, w ratios up to 1e4 (S-401,
         keepWorst(worst, measure(c, z, w, v, pixels));
     }
     CHECK(worst.finite);
-    CHECK(worst.perspective <= 8 * kUlp);
+    measured("error of u, of 1", worst.perspective, 8 * kUlp);
     CHECK(worst.affine <= 8 * kUlp);
-    CHECK(worst.outsideRange <= 6 * kUlp);
+    measured("beyond the corners' range, of 1", worst.outsideRange, 6 * kUlp);
     CHECK(worst.depth <= 4 * kUlp);
     CHECK(worst.w <= 8 * kUlp);
 }
@@ -231,7 +231,7 @@ TEST_CASE("interpolate: two pixels far from the origin, w ratio 1e4 (S-401)")
                                  {3796, 2096, 3808, 2108}));
     }
     CHECK(worst.finite);
-    CHECK(worst.perspective <= 8 * kUlp);
+    measured("error of u, of 1", worst.perspective, 8 * kUlp);
     CHECK(worst.outsideRange <= 4 * kUlp);
 }
 
@@ -252,7 +252,7 @@ TEST_CASE("interpolate: the last pixels of a triangle of 16384 px (S-412)")
         }
     }
     CHECK(worst.finite);
-    CHECK(worst.perspective <= 8 * kUlp);
+    measured("error of u, of 1", worst.perspective, 8 * kUlp);
     CHECK(worst.affine <= 8 * kUlp);
     CHECK(worst.depth <= 4 * kUlp);
 }
@@ -266,7 +266,7 @@ TEST_CASE("interpolate: the smallest area there is, and slivers (S-304)")
     const Corners sliver = {{{0, 2176}, {4096, 2176}, {4096, 2177}}};
     keepWorst(worst, measure(sliver, {0, 1, 0.5f}, {1, 2, 4}, {3, 5, 9}, {0, 0, 16, 16}));
     CHECK(worst.finite);  // helper lanes too
-    CHECK(worst.perspective <= 8 * kUlp);
+    measured("error of u", worst.perspective, 8 * kUlp);
     CHECK(worst.outsideRange <= 4 * kUlp);
 }
 
@@ -289,7 +289,7 @@ TEST_CASE("interpolate: a value that is equal at all corners comes out unchanged
             wrong += any(weights.depth(block) != 0.3f);
         });
     }
-    CHECK(wrong == 0);
+    measured("values that changed", wrong, 0);
 }
 
 TEST_CASE("interpolate: with equal w at all corners perspective is affine (S-404)")
@@ -313,8 +313,8 @@ TEST_CASE("interpolate: with equal w at all corners perspective is affine (S-404
             }
         });
     }
-    CHECK(worst <= 4 * 0x1p-23);  // ulps of a value up to 1
-    CHECK(worst > 0.0);           // it is two computations
+    measured("perspective less affine, of 1", worst, 4 * 0x1p-23);  // ulps of a value up to 1
+    CHECK(worst > 0.0);                                             // it is two computations
 }
 
 TEST_CASE("interpolate: very large, very small and very different w (S-407)")
@@ -337,7 +337,7 @@ TEST_CASE("interpolate: very large, very small and very different w (S-407)")
         keepWorst(worst, measure(c, {0, 1, 0.5f}, w, {random.real(0, 1), random.real(0, 1), 1.0f}, pixels));
     }
     CHECK(worst.finite);
-    CHECK(worst.perspective <= 8 * kUlp);
+    measured("error of u, of 1", worst.perspective, 8 * kUlp);
 
     // Any ratio that two floats can have: finite and within the corners' range, whatever the precision.
     Errors extreme;
@@ -351,7 +351,7 @@ TEST_CASE("interpolate: very large, very small and very different w (S-407)")
         keepWorst(extreme, measure(c, {0, 1, 0.5f}, w, {random.real(0, 1), random.real(0, 1), 1.0f}, pixels));
     }
     CHECK(extreme.finite);
-    CHECK(extreme.outsideRange <= 8 * kUlp);
+    measured("beyond the corners' range at any w", extreme.outsideRange, 8 * kUlp);
 }
 
 TEST_CASE("interpolate: SV_POSITION holds the pixel centre, depth and w, with and without a depth test")
@@ -449,7 +449,7 @@ TEST_CASE("interpolate: derivatives of a linear value are its slope, at the tria
             wrong += std::fabs(v.z - perX2) > tolerance || std::fabs(v.w) > tolerance;
         });
     }
-    CHECK(wrong == 0);
+    measured("derivatives off", wrong, 0);
     CHECK(drawn > 1000);
 }
 
@@ -473,7 +473,7 @@ TEST_CASE("interpolate: helper lanes behind the horizon stay finite (S-501)")
         wrong += statistics.invalidColors != 0 || !allFinite(target) || !addsUp(statistics);
         drawn += statistics.pixelsShaded > 500;
     }
-    CHECK(wrong == 0);
+    measured("lanes not finite or out of range", wrong, 0);
     CHECK(drawn == trials(1000));
 }
 
@@ -505,7 +505,7 @@ TEST_CASE("interpolate: NaN, infinity and 1e38 at one corner touch that triangle
                 if (!exact.covers(x, y)) wrong += pixel(with, x, y) != pixel(without, x, y);
             }
         }
-        CHECK(wrong == 0);
+        measured("other pixels that changed", wrong, 0);
     }
 }
 
@@ -552,6 +552,6 @@ TEST_CASE("interpolate: moved by whole pixels, values and depth have the same bi
             }
         }
     }
-    CHECK(wrong == 0);
+    measured("bits that differ", wrong, 0);
     CHECK(drawn > 10000);
 }

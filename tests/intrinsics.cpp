@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "lane_check.h"
+#include "stability.h"
 
 using namespace relief;
 using namespace lane_check;
@@ -402,4 +403,26 @@ TEST_CASE("constructors join vectors and numbers")
     CHECK(is(float4(float2(1.0f, 2.0f), float2(3.0f, 4.0f)), 1.0f, 2.0f, 3.0f, 4.0f));
     CHECK(is(float3(Float(5.0f)), 5.0f, 5.0f, 5.0f));
     CHECK(is(float3(0.5f), 0.5f, 0.5f, 0.5f));
+}
+
+TEST_CASE("normalize: S-619 vectors of lengths 1e-30 to 1e30 keep their direction")
+{
+    RandomBits random;
+    double worst = 0.0;
+    for (const float scale : {1e-30f, 1e-25f, 1e-23f, 1e-20f, 1.0f, 1e19f, 1e20f, 1e25f, 1e30f}) {
+        for (int n = 0; n < stability::trials(200); ++n) {
+            const float3 v = randomVector(random) * scale;
+            const float3 unit = normalize(v);
+            for (int i = 0; i < kLanes; ++i) {
+                double square = 0.0, off = 0.0;
+                for (int c = 0; c < 3; ++c) square += static_cast<double>(v[c][i]) * static_cast<double>(v[c][i]);
+                for (int c = 0; c < 3; ++c) {
+                    off +=
+                        std::pow(static_cast<double>(v[c][i]) / std::sqrt(square) - static_cast<double>(unit[c][i]), 2);
+                }
+                worst = std::fmax(worst, std::sqrt(off) * 180.0 / 3.14159265358979);
+            }
+        }
+    }
+    stability::measured("degrees off", worst, 1e-5);
 }

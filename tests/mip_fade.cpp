@@ -6,10 +6,13 @@
 
 #include <doctest/doctest.h>
 
+#include "shading/lighting.h"
+#include "stability.h"
 #include "texture/pixels.h"
 #include "texture/texture.h"
 
 using namespace relief;
+using stability::measured;
 
 namespace {
 
@@ -71,4 +74,15 @@ TEST_CASE("mip_fade: light is faded in sRGB codes, and ends at exactly Texture::
         if (step == 0) CHECK(texel[0] == light);
         if (step == 4) CHECK(texel[0] == Texture::grey().level(0).texel<std::uint16_t>(0, 0)[0]);
     }
+}
+
+TEST_CASE("mip_fade: S-565 a detail texture that has faded to grey darkens by less than 2 %, as documented")
+{
+    // Unity's factor is 2 in gamma space brought to linear light; 128 is a little more than one half, 0.5 a little
+    // less.
+    const double byCode =
+        static_cast<double>(Texture::grey().texel(0, 0).x) * static_cast<double>(unity_ColorSpaceDouble);
+    const double byHalf = decodeSrgb(0.5) * static_cast<double>(unity_ColorSpaceDouble);
+    measured("off 0.991834, code 128", std::abs(byCode - 0.991834), 4e-5);  // 16 bits of light
+    measured("off 0.983475, 0.5", std::abs(byHalf - 0.983475), 1e-6);
 }

@@ -9,7 +9,10 @@
 
 #include <doctest/doctest.h>
 
+#include "stability.h"
+
 using namespace relief;
+using stability::measured;
 
 namespace {
 
@@ -213,4 +216,24 @@ TEST_CASE("normal_map: codes are the nearest, in red, green and blue or in alpha
         CHECK(std::memcmp(ag.texel<std::uint8_t>(x, 0), swizzled, 4) == 0);
     }
     CHECK(ag.texel<std::uint8_t>(-1, 1)[3] == 204);  // the frame
+}
+
+TEST_CASE("normal_map: S-609 of an 8-bit staircase the slope is off by less than a code, of 16 bits by a 256th of that")
+{
+    // 1/16 of a code per texel. Bumpiness makes one code per texel a slope of 1.
+    const auto worst = [](auto height) {
+        const HeightField field = fieldBy(256, 1, height);
+        const MipLevel normals = normalsFromHeights(field, 255.0f / 256.0f, NormalFilter::smooth);
+        double off = 0.0;
+        for (int x = 0; x < 255; ++x) {
+            const float* n = normals.texel<float>(x, 0);
+            off = std::fmax(off, std::abs(-static_cast<double>(n[0]) / static_cast<double>(n[2]) - 1.0 / 16.0));
+        }
+        return off;
+    };
+    const double coarse = worst([](int x, int) { return std::floor(x / 16.0 + 0.5) / 255.0; });
+    measured("slope off in 8 bits, of 1 a code", coarse, 1.0);
+    CHECK(coarse > 0.9);  // flat and steep in turn
+    measured("slope off in 16 bits", worst([](int x, int) { return std::floor(x / 16.0 * 257.0 + 0.5) / 65535.0; }),
+             1.0 / 256.0);
 }

@@ -16,20 +16,14 @@
 
 #include "hlsl/derivatives.h"
 #include "pipeline/frame.h"
+#include "stability.h"
 
 namespace fixture {
 
 using namespace relief;
 
-// How often to repeat a random trial: a tenth of `full` in builds that are slow.
-constexpr int trials(int full)
-{
-#if defined(RELIEF_SHORT_TESTS)
-    return full < 10 ? 1 : full / 10;
-#else
-    return full;
-#endif
-}
+using stability::measured;
+using stability::trials;
 
 // --- random numbers: SplitMix64 ---
 

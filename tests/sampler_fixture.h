@@ -10,11 +10,14 @@
 
 #include "hlsl/derivatives.h"
 #include "lanes/active.h"
+#include "stability.h"
 #include "texture/sampler.h"
 
 namespace sampler_fixture {
 
 using namespace relief;
+using stability::measured;
+using stability::trials;
 
 // Random numbers, the same on every run.
 class Random

@@ -9,10 +9,13 @@
 #include <doctest/doctest.h>
 
 #include "hlsl/intrinsics.h"
+#include "stability.h"
 
 namespace fixture {
 
 using namespace relief;
+using stability::measured;
+using stability::trials;
 
 struct Vector
 {

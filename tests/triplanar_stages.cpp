@@ -145,7 +145,8 @@ TEST_CASE("triplanar stages: each listing is its method")
 TEST_CASE("triplanar stages: S-711 GPU Gems 3 draws UDN's picture")
 {
     for (const char* mesh : {"sphere", "cube", "terrain"}) {
-        CHECK(largestDifference(rendered("4.06", mesh, {"show=1"}).target, rendered("4.04", mesh).target) <= 1e-6f);
+        measured("difference of a colour",
+                 largestDifference(rendered("4.06", mesh, {"show=1"}).target, rendered("4.04", mesh).target), 1e-6f);
         const Picture enlarged = rendered("4.06", mesh, {"show=2", "exaggeration=1"});
         for (const glm::vec4& c : enlarged.target.color32f()) {
             if (c.w == 1.0f && c.x < 0.03f) CHECK(std::max({c.x, c.y, c.z}) <= 3e-7f);
@@ -158,12 +159,12 @@ TEST_CASE("triplanar stages: S-658 S-710 on a cube swizzle, whiteout, RNM, cotan
     const Picture swizzle = rendered("4.03", "cube");
     for (const char* id : {"4.05", "4.07", "4.08", "4.10"}) {
         CAPTURE(id);
-        CHECK(largestDifference(rendered(id, "cube").target, swizzle.target) <= 1e-5f);
+        measured("difference of a colour", largestDifference(rendered(id, "cube").target, swizzle.target), 1e-5f);
     }
     CHECK(largestDifference(rendered("4.04", "cube").target, swizzle.target) > 1e-3f);  // UDN does not
 }
 
-TEST_CASE("triplanar stages: planes without weight are not sampled, and the others have the same derivatives")
+TEST_CASE("triplanar stages: S-1104 planes without weight are not sampled, and the others have the same derivatives")
 {
     const Picture cube = rendered("4.05", "cube");
     CHECK(cube.statistics.fetches.trilinear == 2 * 4 * cube.statistics.quadsShaded);  // colour and bumps, one plane
@@ -180,7 +181,7 @@ TEST_CASE("triplanar stages: planes without weight are not sampled, and the othe
     }
 }
 
-TEST_CASE("triplanar stages: a mesh without uv stays without uv and tangents, but for the naive method")
+TEST_CASE("triplanar stages: S-1103 a mesh without uv stays without uv and tangents, but for the naive method")
 {
     const TemporaryFolder folder;
     const std::string obj = "v 0 1 0\nv 1 -1 -1\nv -1 -1 -1\nv 0 -1 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
@@ -282,7 +283,7 @@ TEST_CASE("triplanar stages: S-657 a quad over the silhouette takes its derivati
         for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(static_cast<double>(a[c] - b[c])));
     }
     CHECK(compared > 500);
-    CHECK(largest <= 2e-3);  // a tenth of a degree
+    measured("difference of a normal", largest, 2e-3);  // a tenth of a degree
 }
 
 TEST_CASE("triplanar stages: the cross product of two differences is the triangle's normal, towards the viewer")

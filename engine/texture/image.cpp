@@ -90,10 +90,14 @@ Size pngSize(const Bytes& bytes)
 
 constexpr std::string_view kNotAnImage = "unknown image type";  // stb's words
 
-// Why the last call of stb on this thread failed.
+// Why the last call of stb on this thread failed. Of a chunk that it does not know stb names the type, four bytes of
+// the file, which may be anything, line ends included: they are left out.
 std::string_view lastReason()
 {
-    return stbi_failure_reason() ? stbi_failure_reason() : "";
+    std::string_view reason = stbi_failure_reason() ? stbi_failure_reason() : "";
+    constexpr std::string_view kUnknownChunk = "PNG chunk not known";
+    if (reason.ends_with(kUnknownChunk)) reason = kUnknownChunk;
+    return reason;
 }
 
 // Runs one of stb's load functions on the file and copies the pixels out of stb's memory.

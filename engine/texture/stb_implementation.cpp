@@ -27,8 +27,15 @@
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #endif
+// A PNG may begin with an empty IDAT chunk, of which stb copies nothing to a null pointer: undefined for memcpy.
+static void* copyBytes(void* to, const void* from, std::size_t count)
+{
+    return count > 0 ? std::memcpy(to, from, count) : to;
+}
+#define memcpy copyBytes
 #define STB_IMAGE_IMPLEMENTATION
 #include <stb/stb_image.h>
+#undef memcpy
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 #define STB_DXT_IMPLEMENTATION

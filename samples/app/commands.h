@@ -57,10 +57,11 @@ struct ReportOptions
     std::string name, output = "docs/report";
     std::string size;               // empty: the report's own
     int rounds = 0;                 // 0: the report's own
-    std::string countedProgram;     // empty: instructions are not counted
+    std::vector<std::string> only;  // of `error` and `stability`: these experiments or cases; none: all
     double part = 1.0;              // of `performance`: how far its scalings go, as a part of the whole way
+    std::string countedProgram;     // empty: instructions are not counted
     std::string switchableProgram;  // of `leave-out`: a relief of a build with RELIEF_SWITCHES; empty: not counted
-    std::string only;               // of `error`: one experiment, "E-01"; empty: all
+    std::string tests;              // of `stability`: the test program
     bool countOnly = false;         // of `error`: runs each variant between marks for valgrind, and writes nothing
 };
 

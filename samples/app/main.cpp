@@ -192,7 +192,8 @@ int main(int argc, char** argv)
         ->add_option("name", reportOptions.name,
                      "triplanar: what each way to map normals costs, beside its error; performance: how cost grows "
                      "with pixels, triangles, threads, lights and textures; error: every approximation's error "
-                     "beside its run time; leave-out: what each stage did not need, and what that saved")
+                     "beside its run time; stability: what extreme inputs do, measured against bounds; leave-out: "
+                     "what each stage did not need, and what that saved")
         ->required();
     command->add_option("--output", reportOptions.output, "The folder")->capture_default_str()->type_name("DIR");
     command
@@ -209,7 +210,11 @@ int main(int argc, char** argv)
                      "Of performance: leaves out what is larger than this part of the largest picture, mesh, texture "
                      "and number of lights")
         ->check(CLI::Range(1e-9, 1.0));
-    command->add_option("--only", reportOptions.only, "Of error: one experiment, by its number")->type_name("E-01");
+    command
+        ->add_option("--only", reportOptions.only,
+                     "Of error and stability: one experiment or case alone, E-01 or S-301; may be repeated")
+        ->type_name("ID")
+        ->allow_extra_args(false);
     command->add_flag("--count-only", reportOptions.countOnly, "What valgrind runs to count instructions")->group("");
     command
         ->add_option(
@@ -219,6 +224,8 @@ int main(int argc, char** argv)
     command
         ->add_option("--switchable-program", reportOptions.switchableProgram,
                      "Of leave-out: a relief in which what is left out can be put back; ./relief builds one")
+        ->type_name("FILE");
+    command->add_option("--tests", reportOptions.tests, "Of stability: the test program; ./relief builds it")
         ->type_name("FILE");
     command->callback([&] { result = report(reportOptions); });
 

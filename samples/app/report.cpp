@@ -19,12 +19,16 @@ struct Report
     Expected<void> (*write)(const ReportOptions&);
     const char* size;  // unless told otherwise, as the number of rounds
     int rounds;
+    const char* takes;  // of the options that not every report takes
 };
 
-constexpr Report kReports[] = {{"triplanar", reportTriplanar, "960x540", 31},
-                               {"performance", reportPerformance, "1920x1080", 5},
-                               {"error", reportError, "960x540", 15},
-                               {"leave-out", reportLeaveOut, "480x270", 1}};
+constexpr Report kReports[] = {
+    {"triplanar", reportTriplanar, "960x540", 31, "--size --rounds --counted-program"},
+    {"performance", reportPerformance, "1920x1080", 5, "--size --rounds --part"},
+    {"error", reportError, "", 15, "--rounds --only --counted-program"},
+    {"stability", reportStability, "", 0, "--only --tests"},
+    {"leave-out", reportLeaveOut, "480x270", 0, "--size --counted-program --switchable-program"},
+};
 
 Expected<const Report*> findReport(const std::string& name)
 {
@@ -74,7 +78,7 @@ std::string reportHead(const std::string& title, const ReportOptions& options)
     if (options.size != usual.size) command += " --size " + options.size;
     if (options.rounds != usual.rounds) command += " --rounds " + std::to_string(options.rounds);
     if (options.part < 1.0) command += " --part " + text("%g", options.part);
-    if (!options.only.empty()) command += " --only " + options.only;
+    for (const std::string& id : options.only) command += " --only " + id;
     return "# " + title + "\n\n    " + command + "\n\n- processor: " + processor() +
            "\n- lanes: " + std::to_string(kLanes) + "\n- compiler: " + compiler() + "\n- commit: " + reportCommit() +
            "\n";
@@ -121,13 +125,20 @@ Expected<void> report(const ReportOptions& options)
 {
     const Expected<const Report*> found = findReport(options.name);
     if (!found) return tl::unexpected(found.error());
+    const std::pair<bool, std::string> given[] = {{!options.size.empty(), "--size"},
+                                                  {options.rounds != 0, "--rounds"},
+                                                  {options.part < 1.0, "--part"},
+                                                  {!options.only.empty(), "--only"},
+                                                  {!options.tests.empty(), "--tests"},
+                                                  {!options.countedProgram.empty(), "--counted-program"},
+                                                  {!options.switchableProgram.empty(), "--switchable-program"}};
+    for (const auto& [isGiven, option] : given) {
+        const bool taken = (std::string((*found)->takes) + " ").find(option + " ") != std::string::npos;
+        if (isGiven && !taken) return fail("report " + options.name + ": it does not take " + option);
+    }
     ReportOptions complete = options;
     if (complete.size.empty()) complete.size = (*found)->size;
     if (complete.rounds == 0) complete.rounds = (*found)->rounds;
-    if (complete.part < 1.0 && complete.name != "performance")
-        return fail("report " + complete.name + ": it does not take --part");
-    if (!complete.only.empty() && complete.name != "error")
-        return fail("report " + complete.name + ": it does not take --only");
     return (*found)->write(complete);
 }
 

@@ -9,6 +9,7 @@ namespace relief::samples {
 Expected<void> reportTriplanar(const ReportOptions& options);
 Expected<void> reportLeaveOut(const ReportOptions& options);
 Expected<void> reportPerformance(const ReportOptions& options);  // in tests/benchmarks
+Expected<void> reportStability(const ReportOptions& options);
 Expected<void> reportError(const ReportOptions& options);        // in tests/experiments
 
 // The lines that a report begins with: title, the command that made it, the machine, the compiler and the commit.

@@ -195,11 +195,15 @@ Expected<void> reportError(const ReportOptions& given)
         const Expected<void> canPlot = checkPlotting();
         if (!canPlot) return canPlot;
     }
+    const std::vector<Entry>& entries = experiments::experiments();
+    for (const std::string& id : options.only) {
+        if (std::none_of(entries.begin(), entries.end(), [&](const Entry& entry) { return id == entry.id; }))
+            return fail("report error --only " + id + ": there is no such experiment; the first is E-01");
+    }
     std::vector<Measured> all;
-    bool found = false;
-    for (const Entry& entry : experiments::experiments()) {
-        if (!options.only.empty() && options.only != entry.id) continue;
-        found = true;
+    for (const Entry& entry : entries) {
+        const bool wanted = options.only.empty() || std::count(options.only.begin(), options.only.end(), entry.id) > 0;
+        if (!wanted) continue;
         if (options.countOnly) {
             runForCounting(entry.make({}));
             continue;
@@ -210,7 +214,6 @@ Expected<void> reportError(const ReportOptions& given)
         if (!written) return written;
         all.push_back(std::move(*m));
     }
-    if (!found) return fail("report error --only " + options.only + ": there is no such experiment; the first is E-01");
     showProgress("");
     if (options.countOnly) return {};
     if (options.only.empty()) {

@@ -1,0 +1,125 @@
+// Frames under stress: thrown away before they run, targets of another size and freed in between, sizes that cannot be
+// had, and scenes of nothing but subnormal numbers (stability cases S-1006, S-1012, S-1013).
+#include <chrono>
+#include <memory>
+
+#include "pipeline_fixture.h"
+
+using namespace fixture;
+
+namespace {
+
+constexpr RenderState kOver = {Compare::lessEqual, true, true, Cull::none, Blend::alpha};
+
+Mesh randomMesh(std::uint64_t seed, int triangles, int width, int height)
+{
+    Random random(seed);
+    Mesh mesh;
+    for (int i = 0; i < triangles; ++i) {
+        const Corners c = randomTriangle(random, width, height, 1000);
+        const glm::vec4 value = {random.real(0, 1), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
+        addTriangle(mesh, c, value, random.real(0, 1));
+    }
+    return mesh;
+}
+
+void record(Frame& frame, const Mesh& mesh, const Framebuffer& target)
+{
+    const Viewport viewport = exactViewport(target.width(), target.height());
+    frame.clear(glm::vec4(0.25f));
+    frame.setViewport(viewport);
+    frame.draw<kOver>(mesh, FromPixels(viewport), Value{});
+}
+
+}  // namespace
+
+TEST_CASE("frame life: S-1006 a target that cannot be had is an error, and the next frame is the same as ever")
+{
+    const Mesh mesh = randomMesh(1006, 200, 90, 60);
+    Framebuffer target = makeTarget(90, 60, ColorFormat::rgba32f, DepthStorage::keep);
+    Frame frame(target, {3, 16});
+    record(frame, mesh, target);
+    frame.run();
+    const std::uint64_t first = hashOf(target);
+    int other = 0, accepted = 0;
+    for (const auto& [width, height] :
+         {std::pair{0, 10}, {10, 0}, {-1, 10}, {16385, 1}, {1, 16385}, {2147483647, 2147483647}}) {
+        accepted += Framebuffer::create(width, height).has_value();
+        frame.run();
+        other += hashOf(target) != first;
+    }
+    measured("impossible targets made", accepted, 0);
+    measured("other hashes", other, 0);
+}
+
+TEST_CASE("frame life: S-1013 frames thrown away and targets of other sizes in between leave no trace")
+{
+    const Mesh mesh = randomMesh(1013, 300, 120, 90);
+    Framebuffer target = makeTarget(120, 90, ColorFormat::rgba8Srgb, DepthStorage::keep);
+    Frame kept(target, {3, 32});
+    record(kept, mesh, target);
+    kept.run();
+    const std::uint64_t first = hashOf(target);
+    Random random(1013);
+    int other = 0;
+    for (int i = 0; i < trials(100); ++i) {
+        // Another frame, larger or smaller, run or only recorded, gone with its target and its mesh.
+        auto otherTarget = std::make_unique<Framebuffer>(makeTarget(random.between(1, 300), random.between(1, 200)));
+        auto otherMesh = std::make_unique<Mesh>(randomMesh(random.next(), random.between(0, 50), 120, 90));
+        auto otherFrame =
+            std::make_unique<Frame>(*otherTarget, FrameOptions{random.between(1, 4), 16 << random.between(0, 3)});
+        record(*otherFrame, *otherMesh, *otherTarget);
+        if (random.chance(2)) otherFrame->run();
+        if (random.chance(3)) {
+            otherFrame->reset();
+            otherMesh.reset();
+            otherFrame->run();
+        }
+        otherFrame.reset();
+        otherTarget.reset();
+        if (random.chance(3)) kept.reset();
+        kept.reset();
+        record(kept, mesh, target);
+        kept.run();
+        other += hashOf(target) != first;
+        // A second frame on the same target sees what the first one left.
+        Frame second(target, {2, 64});
+        second.run();
+        other += hashOf(target) != first;
+    }
+    measured("other hashes", other, 0);
+}
+
+TEST_CASE("frame life: S-1012 a scene of subnormal numbers has the right bits, and takes as long as it takes")
+{
+    // The same triangles with attributes of 1 and of 1e-40; the program multiplies and adds them.
+    struct Busy
+    {
+        float4 operator()(const Interpolated& i) const
+        {
+            float4 sum = i.value;
+            for (int k = 0; k < 32; ++k) sum = sum * 0.5f + i.value * 0.5f;
+            return sum;
+        }
+    };
+    Framebuffer target = makeTarget(128, 128);
+    const auto seconds = [&](float value) {
+        Mesh mesh;
+        for (int i = 0; i < 8; ++i)
+            addTriangle(mesh, Corners{{{0, 0}, {256 * 256, 0}, {0, 256 * 256}}}, glm::vec4(value));
+        double best = 1e30;
+        for (int round = 0; round < 3; ++round) {
+            const auto begin = std::chrono::steady_clock::now();
+            checkInvariants(target, drawPixels<kPaint>(target, mesh, Busy{}));
+            best = std::fmin(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        }
+        return best;
+    };
+    const double ordinary = seconds(1.0f);
+    CHECK(pixelsNotEqualTo(target, 1.0f) == 0);
+    // 2^-135: halves of it and their sums are exact.
+    const double subnormal = seconds(0x1p-135f);
+    measured("pixels with other bits", pixelsNotEqualTo(target, 0x1p-135f), 0);
+    stability::noted("times the ordinary scene's time", subnormal / ordinary);
+    CHECK(subnormal < 10.0);  // seconds: it ends
+}
