@@ -6,6 +6,8 @@
 namespace relief::experiments {
 
 Experiment zDecode(Effort effort);
+Experiment derivatives(Effort effort);
+Experiment levelForms(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
