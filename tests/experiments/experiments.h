@@ -8,6 +8,7 @@ namespace relief::experiments {
 Experiment zDecode(Effort effort);
 Experiment derivatives(Effort effort);
 Experiment levelForms(Effort effort);
+Experiment filters(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
