@@ -236,7 +236,7 @@ sampler2D sampler(Filter filter, bool mipmaps, int anisotropy)
 // as a cosine in red and a sine in green together give it.
 double amplitude(double frequency, double minification, bool mipmaps)
 {
-    constexpr int steps = 1 << 16;
+    constexpr int steps = 1 << 14;
     std::vector<float> pixels;
     for (int x = 0; x < kSide; ++x) {
         const std::complex<double> wave = std::polar(1.0, 2.0 * kPi * frequency * (x + 0.5));

@@ -7,7 +7,7 @@ namespace relief::experiments {
 
 const std::vector<Entry>& experiments()
 {
-    static const std::vector<Entry> all = {{"E-01", zDecode}, {"E-10", derivatives}, {"E-11", levelForms}, {"E-12", filters}};
+    static const std::vector<Entry> all = {{"E-01", zDecode}, {"E-10", derivatives}, {"E-11", levelForms}, {"E-12", filters}, {"E-13", weightPrecision}};
     return all;
 }
 

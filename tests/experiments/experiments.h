@@ -9,6 +9,7 @@ Experiment zDecode(Effort effort);
 Experiment derivatives(Effort effort);
 Experiment levelForms(Effort effort);
 Experiment filters(Effort effort);
+Experiment weightPrecision(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
