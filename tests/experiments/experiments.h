@@ -10,6 +10,8 @@ Experiment derivatives(Effort effort);
 Experiment levelForms(Effort effort);
 Experiment filters(Effort effort);
 Experiment weightPrecision(Effort effort);
+Experiment mipGeneration(Effort effort);
+Experiment minifiedSpecular(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
