@@ -12,6 +12,7 @@ Experiment filters(Effort effort);
 Experiment weightPrecision(Effort effort);
 Experiment mipGeneration(Effort effort);
 Experiment minifiedSpecular(Effort effort);
+Experiment normalStorage(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
