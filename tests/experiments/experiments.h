@@ -13,6 +13,8 @@ Experiment weightPrecision(Effort effort);
 Experiment mipGeneration(Effort effort);
 Experiment minifiedSpecular(Effort effort);
 Experiment normalStorage(Effort effort);
+Experiment spanPerspective(Effort effort);
+Experiment attributeSetup(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
