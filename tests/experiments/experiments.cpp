@@ -8,9 +8,9 @@ namespace relief::experiments {
 const std::vector<Entry>& experiments()
 {
     static const std::vector<Entry> all = {
-        {"E-01", zDecode},         {"E-10", derivatives},   {"E-11", levelForms},       {"E-12", filters},
-        {"E-13", weightPrecision}, {"E-14", mipGeneration}, {"E-15", minifiedSpecular}, {"E-16", normalStorage},
-        {"E-17", spanPerspective}, {"E-18", attributeSetup}};
+        {"E-01", zDecode},         {"E-10", derivatives},    {"E-11", levelForms},       {"E-12", filters},
+        {"E-13", weightPrecision}, {"E-14", mipGeneration},  {"E-15", minifiedSpecular}, {"E-16", normalStorage},
+        {"E-17", spanPerspective}, {"E-18", attributeSetup}, {"E-26", halfInterpolants}};
     return all;
 }
 

@@ -15,6 +15,7 @@ Experiment minifiedSpecular(Effort effort);
 Experiment normalStorage(Effort effort);
 Experiment spanPerspective(Effort effort);
 Experiment attributeSetup(Effort effort);
+Experiment halfInterpolants(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
