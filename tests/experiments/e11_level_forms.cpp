@@ -149,7 +149,7 @@ Experiment levelForms(Effort effort)
     add("length", "log2", longest, engineLog2);
     add("component", "log2", component, engineLog2);
     add("sum per axis", "log2", axisSum, engineLog2);
-    add("GL's upper bound", "log2", upperBound, engineLog2);
+    add("GL maximum", "log2", upperBound, engineLog2);
     add("length", "bits", longest, bitsLog2);
     add("length", "degree 2", longest, log2Degree2);
     add("length", "degree 3", longest, log2Degree3);
@@ -224,7 +224,7 @@ Experiment levelForms(Effort effort)
         const Row &bits = rows("length", "bits"), &third = rows("length", "degree 3");
         return "The longer derivative is up to " + number(length.fact("worst too sharp"), 3) +
                " levels sharper than the ellipse, with an RMS of " + number(length.outcome.error.rms, 3) +
-               "; OpenGL's upper bound up to " + number(rows("GL's upper bound", "log2").fact("worst too blurred"), 3) +
+               "; OpenGL maximum up to " + number(rows("GL maximum", "log2").fact("worst too blurred"), 3) +
                " more blurred. Beside that the logarithm hardly counts: a float's bits alone, at most " +
                number(bits.fact("of it the logarithm, worst"), 3) + " levels off, change the RMS to " +
                number(bits.outcome.error.rms, 3) + ", and degree 3, good enough for 8 bits of fraction, to " +

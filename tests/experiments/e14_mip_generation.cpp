@@ -1,4 +1,5 @@
 // E-14: how a coarser mip level is made of colours and of normals.
+#include "exact_srgb.h"
 #include "experiments.h"
 #include "hlsl/intrinsics.h"
 #include "lane_kernel.h"
@@ -11,11 +12,6 @@ namespace relief::experiments {
 namespace {
 
 constexpr int kSide = 128;
-
-double encoded(double linear)
-{
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 // --- colours: one-texel checkers on the left, random codes on the right; three channels ---
 
@@ -119,9 +115,9 @@ Error chainError(const MipLevel& finest, const std::vector<Vector>& exact, Coars
 
 void codesOff(ErrorSum& sum, const Vector& made, const Vector& mean, double weight)
 {
-    sum.add(255.0 * (encoded(made.x) - encoded(mean.x)), weight);
-    sum.add(255.0 * (encoded(made.y) - encoded(mean.y)), weight);
-    sum.add(255.0 * (encoded(made.z) - encoded(mean.z)), weight);
+    sum.add(255.0 * (encodedSrgb(made.x) - encodedSrgb(mean.x)), weight);
+    sum.add(255.0 * (encodedSrgb(made.y) - encodedSrgb(mean.y)), weight);
+    sum.add(255.0 * (encodedSrgb(made.z) - encodedSrgb(mean.z)), weight);
 }
 
 // Of Lambert's N.L under four lights, 40 degrees from upright. The mean of N.L is the mean normal's.
@@ -218,7 +214,7 @@ Experiment mipGeneration(Effort effort)
     e.checks.push_back({"checkers, linear light in 16 bits: code", 188,
                         [=] {
                             const MipLevel level = coarserLevel(TexelFormat::rgba16, linear16);
-                            return std::floor(255.0 * encoded(level.texel<std::uint16_t>(0, 0)[0] / 65535.0) + 0.5);
+                            return std::floor(255.0 * encodedSrgb(level.texel<std::uint16_t>(0, 0)[0] / 65535.0) + 0.5);
                         },
                         0.0});
     e.checks.push_back({"checkers, codes decoded: code", 188,
@@ -226,7 +222,7 @@ Experiment mipGeneration(Effort effort)
     e.checks.push_back({"checkers, codes as they are: code", 128,
                         [=] { return coarserLevel(TexelFormat::rgba8, codes).texel<std::uint8_t>(0, 0)[0]; }, 0.0});
     e.checks.push_back({"checkers, exact: code before rounding", 187.516,
-                        [=] { return 255.0 * encoded(means(light, 1)[0].x); }, 1e-3});
+                        [=] { return 255.0 * encodedSrgb(means(light, 1)[0].x); }, 1e-3});
     constexpr double kLengths[][2] = {{.1, .997514}, {.3, .978572}, {.5, .945006}, {1, .834627}, {2, .642638}};
     for (const auto& row : kLengths) {
         e.checks.push_back({"mean normal's length, slopes " + number(row[0], 1) + " sin t", row[1],
