@@ -185,13 +185,12 @@ Error errorOf(int size, double ratio, int count)
 int coveredPixels(const Triangles& t)
 {
     int covered = 0;
-    for (std::size_t i = 0; i < t.all.size(); ++i) {
-        const Rectangle r = sampleBounds(t.all[i], {0, 0, 8192, 8192});
+    for (const Triangle& triangle : t.all) {
+        const Rectangle r = sampleBounds(triangle, {0, 0, 8192, 8192});
+        const EdgeFunction edges[] = {edgeOf(triangle, 0), edgeOf(triangle, 1), edgeOf(triangle, 2)};
         for (int y = r.y0; y < r.y1; ++y) {
-            for (int x = r.x0; x < r.x1; ++x) {
-                double u = 0.0;
-                covered += exactU(t.all[i], t.corners[i], x, y, u);
-            }
+            for (int x = r.x0; x < r.x1; ++x)
+                covered += edges[0].coverage(x, y) >= 0 && edges[1].coverage(x, y) >= 0 && edges[2].coverage(x, y) >= 0;
         }
     }
     return covered;
