@@ -160,16 +160,16 @@ Experiment levelForms(Effort effort)
     constexpr double kLevel = 1.0 / 256.0, kExact = 1e-4;
     struct Reference
     {
-        double ux, vx, uy, vy, length, lower, upper, major, ratio, anisotropic;
+        double ux, vx, uy, vy, length, lower, upper, vulkan, major, ratio, anisotropic;
     };
-    constexpr Reference kReferences[] = {{1, 0, 0, 1, 0, 0, 1, 0, 1, 0},
-                                         {4, 0, 0, 1, 2, 2, 2.32193, 2, 4, 0},
-                                         {3, 4, -4, 3, 2.32193, 2, 3, 2.32193, 1, 2.32193},
-                                         {2, 2, 2, 2, 1.5, 1, 2, 2, 2.82843, -2.5},
-                                         {1, 0, .8, .6, 0, 0, .678072, .423998, 1, -.736966},
-                                         {16, 0, 0, .25, 4, 4, 4.02237, 4, 16, 0},
-                                         {64, 0, 0, 1, 6, 6, 6.02237, 6, 16, 2},
-                                         {.5, 0, 0, .5, -1, -1, 0, -1, 1, -1}};
+    constexpr Reference kReferences[] = {{1, 0, 0, 1, 0, 0, 1, 0.5, 0, 1, 0},
+                                         {4, 0, 0, 1, 2, 2, 2.32193, 2.5, 2, 4, 0},
+                                         {3, 4, -4, 3, 2.32193, 2, 3, 3.30735, 2.32193, 1, 2.32193},
+                                         {2, 2, 2, 2, 1.5, 1, 2, 2.5, 2, 2.82843, -2.5},
+                                         {1, 0, .8, .6, 0, 0, .678072, 0.985427, .423998, 1, -.736966},
+                                         {16, 0, 0, .25, 4, 4, 4.02237, 4.5, 4, 16, 0},
+                                         {64, 0, 0, 1, 6, 6, 6.02237, 6.5, 6, 16, 2},
+                                         {.5, 0, 0, .5, -1, -1, 0, -0.5, -1, 1, -1}};
     for (const Reference& r : kReferences) {
         const std::string of = " of (" + number(r.ux, 1) + ", " + number(r.vx, 1) + "), (" + number(r.uy, 1) + ", " +
                                number(r.vy, 1) + ")";
@@ -179,12 +179,18 @@ Experiment levelForms(Effort effort)
         check("length", r.length, longest);
         check("component", r.lower, component);
         check("upper bound", r.upper, upperBound);
+        e.checks.push_back({"Vulkan's bound, sqrt(2) times the sum per axis" + of, r.vulkan,
+                            [=] { return levelOf(axisSum, r.ux, r.vx, r.uy, r.vy) + 0.5; }, kLevel});
         check("ellipse", r.major, ellipse);
         const auto footprint = [r] { return anisotropicFootprint(float2(r.ux, r.vx), float2(r.uy, r.vy), 16.0f); };
         e.checks.push_back({"16 times anisotropic, ratio" + of, r.ratio, [=] { return footprint().ratio[0]; }, kExact});
         e.checks.push_back(
             {"16 times anisotropic, level" + of, r.anisotropic, [=] { return footprint().lod[0]; }, kLevel});
     }
+    e.checks.push_back({"16 times anisotropic, ratio where nothing changes", 1.0,
+                        [] { return anisotropicFootprint(float2(0.0f), float2(0.0f), 16.0f).ratio[0]; }, 0.0});
+    e.checks.push_back({"level is -infinity where nothing changes: 1", 1.0,
+                        [] { return levelOf(longest, 0, 0, 0, 0) == -HUGE_VAL ? 1.0 : 0.0; }, 0.0});
     // Two derivatives of one length at an angle: how far the ellipse reaches beyond them.
     constexpr double kAngles[][2] = {{0, .5}, {15, .487604}, {30, .449984}, {45, .385777}, {60, .292481}, {90, 0}};
     for (const auto& row : kAngles) {
