@@ -542,8 +542,8 @@ Expected<std::string> writeStabilityPictures(const ReportOptions& options)
 {
     std::string markdown;
     for (const Pair& pair : kPairs) {
-        const bool wanted = options.only.empty() ||
-                            std::find(options.only.begin(), options.only.end(), pair.id) != options.only.end();
+        const bool wanted =
+            options.only.empty() || std::find(options.only.begin(), options.only.end(), pair.id) != options.only.end();
         if (!wanted) continue;
         showProgress(std::string("picture of ") + pair.id);
         const std::string file = std::string("stability/") + pair.file + ".png";
