@@ -7,7 +7,8 @@ namespace relief::experiments {
 
 const std::vector<Entry>& experiments()
 {
-    static const std::vector<Entry> all = {{"E-01", zDecode}};
+    static const std::vector<Entry> all = {
+        {"E-01", zDecode}, {"E-19", reciprocal}, {"E-20", exponentials}, {"E-21", srgb}};
     return all;
 }
 

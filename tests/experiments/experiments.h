@@ -6,6 +6,9 @@
 namespace relief::experiments {
 
 Experiment zDecode(Effort effort);
+Experiment reciprocal(Effort effort);
+Experiment exponentials(Effort effort);
+Experiment srgb(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);

@@ -102,6 +102,7 @@ Rows measure(const Experiment& experiment, int rounds, const Progress& progress)
 Expected<void> runForCounting(const Experiment& experiment)
 {
     for (const Variant& v : experiment.variants) {
+        if (!v.isCounted) continue;
         v.work.run();  // what the first run alone does is not counted
         CALLGRIND_START_INSTRUMENTATION;
         CALLGRIND_ZERO_STATS;

@@ -16,8 +16,8 @@ Rows measure(const Experiment& experiment, int rounds, const Progress& progress)
 // Marks the rows that no other row beats: in error (RMS) and time (fastest).
 void markFront(Rows& rows);
 
-// Instructions per item of every variant, in order. valgrind runs `program report error --count-only`, a relief whose
-// instructions it knows (not AVX-512); the same numbers every time.
+// Instructions of every counted variant's work, in order. valgrind runs `program report error --count-only`, a relief
+// whose instructions it knows (not AVX-512); the same numbers every time.
 Expected<std::vector<double>> countInstructions(const std::string& program, const std::string& id);
 
 // What that program does: runs every variant's work once, between two marks for valgrind.

@@ -147,12 +147,15 @@ Expected<Measured> measured(const Entry& entry, const ReportOptions& options)
     showProgress(m.experiment.id + ": counting instructions");
     const Expected<std::vector<double>> counts = countInstructions(options.countedProgram, m.experiment.id);
     if (!counts) return tl::unexpected(counts.error());
-    if (counts->size() != m.rows.all.size()) {
+    const std::vector<Variant>& variants = m.experiment.variants;
+    const auto isCounted = [](const Variant& v) { return v.isCounted; };
+    if (std::count_if(variants.begin(), variants.end(), isCounted) != static_cast<std::ptrdiff_t>(counts->size())) {
         return fail("report error: " + options.countedProgram + " has other variants of " + m.experiment.id +
                     "; build it again");
     }
-    for (std::size_t i = 0; i < counts->size(); ++i)
-        m.rows.all[i].instructions = (*counts)[i] / m.experiment.variants[i].work.items;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < variants.size(); ++i)
+        if (variants[i].isCounted) m.rows.all[i].instructions = (*counts)[next++] / variants[i].work.items;
     return m;
 }
 
