@@ -168,8 +168,8 @@ Experiment srgb(Effort effort)
     // at 55 of them, beside it.
     e.checks.push_back({"encode, Unity, at 55/65536", 2.72697,
                         [] {
-                            const Columns in(1, std::vector<float>(16, 55.0f / 65536.0f));
-                            return 255.0 * (encodeExactly(in[0][0]) - evaluate<1>(in, encodeUnity)[0][0]);
+                            const Columns one(1, std::vector<float>(16, 55.0f / 65536.0f));
+                            return 255.0 * (encodeExactly(one[0][0]) - evaluate<1>(one, encodeUnity)[0][0]);
                         },
                         1e-3});
     e.checks.push_back({"encode, Unity", 2.74700, [=] { return encodeError(encodeUnity, samples).max; }, 1e-3});

@@ -8,7 +8,9 @@ namespace relief::experiments {
 const std::vector<Entry>& experiments()
 {
     static const std::vector<Entry> all = {
-        {"E-01", zDecode}, {"E-19", reciprocal}, {"E-20", exponentials}, {"E-21", srgb}};
+        {"E-01", zDecode},       {"E-07", triplanarMethods}, {"E-08", triplanarWeights},
+        {"E-09", tangentFrames}, {"E-19", reciprocal},       {"E-20", exponentials},
+        {"E-21", srgb}};
     return all;
 }
 

@@ -6,6 +6,9 @@
 namespace relief::experiments {
 
 Experiment zDecode(Effort effort);
+Experiment triplanarMethods(Effort effort);
+Experiment triplanarWeights(Effort effort);
+Experiment tangentFrames(Effort effort);
 Experiment reciprocal(Effort effort);
 Experiment exponentials(Effort effort);
 Experiment srgb(Effort effort);
