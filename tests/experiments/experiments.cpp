@@ -10,7 +10,7 @@ const std::vector<Entry>& experiments()
     static const std::vector<Entry> all = {
         {"E-01", zDecode},       {"E-07", triplanarMethods}, {"E-08", triplanarWeights},
         {"E-09", tangentFrames}, {"E-19", reciprocal},       {"E-20", exponentials},
-        {"E-21", srgb}};
+        {"E-21", srgb},          {"E-23", lights},           {"E-24", depth}};
     return all;
 }
 

@@ -12,6 +12,8 @@ Experiment tangentFrames(Effort effort);
 Experiment reciprocal(Effort effort);
 Experiment exponentials(Effort effort);
 Experiment srgb(Effort effort);
+Experiment lights(Effort effort);
+Experiment depth(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
