@@ -7,10 +7,19 @@ namespace relief::experiments {
 
 const std::vector<Entry>& experiments()
 {
-    static const std::vector<Entry> all = {
-        {"E-01", zDecode},       {"E-07", triplanarMethods}, {"E-08", triplanarWeights},
-        {"E-09", tangentFrames}, {"E-19", reciprocal},       {"E-20", exponentials},
-        {"E-21", srgb},          {"E-23", lights},           {"E-24", depth}};
+    static const std::vector<Entry> all = {{"E-01", zDecode},
+                                           {"E-07", triplanarMethods},
+                                           {"E-08", triplanarWeights},
+                                           {"E-09", tangentFrames},
+                                           {"E-19", reciprocal},
+                                           {"E-20", exponentials},
+                                           {"E-21", srgb},
+                                           {"E-23", lights},
+                                           {"E-24", depth},
+                                           {"E-27", tileSizes},
+                                           {"E-28", lanes},
+                                           {"E-29", threads},
+                                           {"E-32", snapping}};
     return all;
 }
 

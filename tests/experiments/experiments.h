@@ -14,6 +14,10 @@ Experiment exponentials(Effort effort);
 Experiment srgb(Effort effort);
 Experiment lights(Effort effort);
 Experiment depth(Effort effort);
+Experiment tileSizes(Effort effort);
+Experiment lanes(Effort effort);
+Experiment threads(Effort effort);
+Experiment snapping(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
