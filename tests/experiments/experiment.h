@@ -67,8 +67,9 @@ struct Variant
 {
     std::string name, parameter;
     std::function<Outcome()> outcome;
-    Work work;            // a frame, or data that stays in the first-level cache
-    Work streaming = {};  // the same on data that does not; may be missing
+    Work work;              // a frame, or data that stays in the first-level cache
+    Work streaming = {};    // the same on data that does not; may be missing
+    bool isCounted = true;  // false: has instructions that the program which counts them may not have
 };
 
 // A measured number beside the one that it is to be.

@@ -91,6 +91,7 @@ Rows measure(const Experiment& experiment, int rounds, const Progress& progress)
 void runForCounting(const Experiment& experiment)
 {
     for (const Variant& v : experiment.variants) {
+        if (!v.isCounted) continue;
         v.work.run();  // what the first run alone does is not counted
         samples::runCounted(v.work.run);
     }

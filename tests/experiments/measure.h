@@ -15,7 +15,7 @@ Rows measure(const Experiment& experiment, int rounds, const Progress& progress)
 // Marks the rows that no other row beats: in error (RMS) and time (fastest).
 void markFront(Rows& rows);
 
-// For `relief report error --count-only`, which valgrind runs: every variant's work once, counted.
+// For `relief report error --count-only`, which valgrind runs: every counted variant's work once.
 void runForCounting(const Experiment& experiment);
 
 }  // namespace relief::experiments

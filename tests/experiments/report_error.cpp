@@ -148,12 +148,17 @@ Expected<Measured> measured(const Entry& entry, const ReportOptions& options)
     const Expected<Counts> counts =
         countInstructions(options.countedProgram, "report error --count-only --only " + m.experiment.id);
     if (!counts) return tl::unexpected(counts.error());
-    if (counts->instructions.size() != m.rows.all.size()) {
+    const std::vector<Variant>& variants = m.experiment.variants;
+    const auto isCounted = [](const Variant& v) { return v.isCounted; };
+    const auto counted = std::count_if(variants.begin(), variants.end(), isCounted);
+    if (counted != static_cast<std::ptrdiff_t>(counts->instructions.size())) {
         return fail("report error: " + options.countedProgram + " has other variants of " + m.experiment.id +
                     "; build it again");
     }
-    for (std::size_t i = 0; i < m.rows.all.size(); ++i)
-        m.rows.all[i].instructions = counts->instructions[i] / m.experiment.variants[i].work.items;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+        if (variants[i].isCounted) m.rows.all[i].instructions = counts->instructions[next++] / variants[i].work.items;
+    }
     return m;
 }
 
