@@ -99,17 +99,16 @@ public:
     [[gnu::flatten]] void shadeBlocks(std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
                                       const TriangleChunk& chunk, Tile& tile, Statistics& statistics) const override
     {
-        int current = -1;
-        TriangleWeights triangle;
-        CornerComponents<kCount> corners;
         Counts counts;
-        for (const CoveredBlock& block : blocks) {
-            if (block.triangle != current) {
-                current = block.triangle;
-                triangle.set(batch, current);
-                setCorners(corners, *batch.triangle[current], chunk);
-            }
-            shadeBlock(block, triangle, corners, tile, counts);
+        for (auto block = blocks.begin(); block != blocks.end();) {
+            const int current = block->triangle;
+            TriangleWeights triangle;
+            triangle.set(batch, current);
+            CornerComponents<kCount> corners;
+            setCorners(corners, *batch.triangle[current], chunk);
+            do {
+                shadeBlock(*block, triangle, corners, tile, counts);
+            } while (++block != blocks.end() && block->triangle == current);
         }
         activeLanes = kAllLanes;
         statistics.blocksShaded += counts.blocks;
