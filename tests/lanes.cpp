@@ -224,6 +224,21 @@ TEST_CASE("multiplyAddHalves: signed halves, exact sums")
     }
 }
 
+TEST_CASE("upperBytes: of both halves of every lane")
+{
+    RandomBits random;
+    for (int round = 0; round < 100; ++round) {
+        Int a;
+        std::int32_t expected[kLanes];
+        for (int i = 0; i < kLanes; ++i) {
+            const std::uint32_t bits = random();
+            a.set(i, static_cast<std::int32_t>(bits));
+            expected[i] = static_cast<std::int32_t>(bits >> 8 & 0x00ff00ffu);
+        }
+        CHECK(all(upperBytes(a) == Int::load(expected)));
+    }
+}
+
 TEST_CASE("inRows: pixel after pixel, row after row")
 {
     const Int x = inRows(laneXs()), y = inRows(laneYs());
