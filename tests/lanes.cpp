@@ -80,6 +80,15 @@ TEST_CASE("Mask: any, all, none and count")
     }
 }
 
+TEST_CASE("countBits: of every mask of a block")
+{
+    for (unsigned bits = 0; bits <= kAllLanes; ++bits) {
+        int expected = 0;
+        for (int i = 0; i < kLanes; ++i) expected += static_cast<int>(bits >> i & 1u);
+        REQUIRE(countBits(bits) == expected);
+    }
+}
+
 TEST_CASE("Mask: wholeQuads completes every quad of which one pixel is set")
 {
     for (unsigned bits = 0; bits <= 0xffffu; ++bits) {

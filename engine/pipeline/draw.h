@@ -173,7 +173,7 @@ private:
         const int index = tile.blockAt(block.x, block.y);
         DepthBounds& bounds = tile.bounds(index);
         if (isHidden<state.depthTest>(triangle.nearest, triangle.farthest, bounds)) {
-            counts.hidden += static_cast<unsigned>(std::popcount(block.coverage));
+            counts.hidden += static_cast<unsigned>(countBits(block.coverage));
             return;
         }
         const BlockWeights weights = triangle.at(block.x, block.y, block.coverage);
@@ -193,14 +193,14 @@ private:
         };
         if constexpr (kUsesDepth && !kMayDiscard) {
             testAndWriteDepth();
-            counts.hidden += static_cast<unsigned>(std::popcount(block.coverage) - count(live));
+            counts.hidden += static_cast<unsigned>(countBits(block.coverage) - count(live));
             if (none(live)) return;
         }
 
         const unsigned quads = wholeQuads(live.bits());
         activeLanes = quads;
         counts.blocks += 1;
-        counts.quads += static_cast<unsigned>(std::popcount(quads)) / 4;
+        counts.quads += static_cast<unsigned>(countBits(quads)) / 4;
         counts.pixels += static_cast<unsigned>(count(live));
 
         Discard discard;
