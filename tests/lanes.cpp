@@ -80,6 +80,15 @@ TEST_CASE("Mask: any, all, none and count")
     }
 }
 
+TEST_CASE("countBits: of every mask of a block")
+{
+    for (unsigned bits = 0; bits <= kAllLanes; ++bits) {
+        int expected = 0;
+        for (int i = 0; i < kLanes; ++i) expected += static_cast<int>(bits >> i & 1u);
+        REQUIRE(countBits(bits) == expected);
+    }
+}
+
 TEST_CASE("Mask: wholeQuads completes every quad of which one pixel is set")
 {
     for (unsigned bits = 0; bits <= 0xffffu; ++bits) {
@@ -221,6 +230,21 @@ TEST_CASE("multiplyAddHalves: signed halves, exact sums")
             expected[i] = lowA * lowB + highA * highB;
         }
         CHECK(all(multiplyAddHalves(a, b) == Int::load(expected)));
+    }
+}
+
+TEST_CASE("upperBytes: of both halves of every lane")
+{
+    RandomBits random;
+    for (int round = 0; round < 100; ++round) {
+        Int a;
+        std::int32_t expected[kLanes];
+        for (int i = 0; i < kLanes; ++i) {
+            const std::uint32_t bits = random();
+            a.set(i, static_cast<std::int32_t>(bits));
+            expected[i] = static_cast<std::int32_t>(bits >> 8 & 0x00ff00ffu);
+        }
+        CHECK(all(upperBytes(a) == Int::load(expected)));
     }
 }
 

@@ -74,6 +74,12 @@ inline Int shiftRightLogical(Int a, int bits)
     return Int((native::IntVector)((native::UintVector)a.value >> static_cast<unsigned>(bits)));
 }
 
+// The upper byte of each 16-bit half, as that half.
+inline Int upperBytes(Int a)
+{
+    return Int((native::IntVector)((native::HalfVector)a.value >> 8));
+}
+
 // The low halves' product plus the high halves', halves taken as signed 16-bit numbers. No overflow but for
 // -32768 in all four.
 inline Int multiplyAddHalves(Int a, Int b)

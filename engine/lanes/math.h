@@ -12,7 +12,9 @@ namespace relief {
 inline Float exp2(Float x)
 {
     // Split into an integer, which becomes exponent bits, and a rest in [-0.5, 0.5] for a polynomial with p(0) = 1.
-    const Float limited = clamp(x, -151.0f, 129.0f);
+    // From -254 down both factors below are 0, exactly: a product that has to be rounded to 0 takes the processor
+    // longer than all of the rest, and pow(0, y), where nothing shines, is common.
+    const Float limited = clamp(x, -254.0f, 129.0f);
     const Int integer = roundToInt(limited);
     const Float f = limited - Float(integer);
     Float p = 0.0001546973198f;

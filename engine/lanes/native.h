@@ -16,7 +16,8 @@ namespace relief::native {
 typedef float FloatVector __attribute__((vector_size(4 * kLanes)));
 typedef std::int32_t IntVector __attribute__((vector_size(4 * kLanes)));
 typedef std::uint32_t UintVector __attribute__((vector_size(4 * kLanes)));
-typedef double DoubleVector __attribute__((vector_size(4 * kLanes)));  // half of the lanes
+typedef std::uint16_t HalfVector __attribute__((vector_size(4 * kLanes)));  // two in each lane
+typedef double DoubleVector __attribute__((vector_size(4 * kLanes)));       // half of the lanes
 
 }  // namespace relief::native
 

@@ -3,6 +3,8 @@
 
 #include <emmintrin.h>
 
+#include <limits>
+
 #include "lanes/native.h"
 
 namespace relief::native {
@@ -107,17 +109,16 @@ inline FloatVector toFloat(IntVector a)
     return (FloatVector)_mm_cvtepi32_ps(wrap(a));
 }
 
-// SSE2 has no rounding instruction. Beyond 2^23 every float is an integer already (and NaN stays NaN); the sign of
-// zero is kept, as the instruction of the wider sets keeps it.
+// SSE2 has no rounding instruction. What no integer holds (the conversion gives -2^31) is whole already, or NaN, and
+// stays; the sign of zero is kept, as the instruction of the wider sets keeps it.
 inline FloatVector floor(FloatVector a)
 {
-    const FloatVector truncated = toFloat(truncateToInt(a));
-    const FloatVector one =
-        (FloatVector)(IntVector{0x3f800000, 0x3f800000, 0x3f800000, 0x3f800000} & less(a, truncated));
-    const IntVector sign = (IntVector)a & static_cast<std::int32_t>(0x80000000u);
-    const FloatVector floored = (FloatVector)((IntVector)(truncated - one) | sign);
-    const FloatVector magnitude = (FloatVector)((IntVector)a & 0x7fffffff);
-    return select(less(magnitude, FloatVector{} + 8388608.0f), floored, a);
+    constexpr std::int32_t lowest = std::numeric_limits<std::int32_t>::min();
+    const IntVector whole = truncateToInt(a);
+    const FloatVector truncated = toFloat(whole), one = FloatVector{} + 1.0f;
+    const FloatVector floored = truncated - (FloatVector)((IntVector)one & less(a, truncated));
+    const IntVector sign = (IntVector)a & lowest;  // of zero
+    return select(equal(whole, IntVector{} + lowest), a, (FloatVector)((IntVector)floored | sign));
 }
 
 inline DoubleVector lowToDouble(IntVector a)

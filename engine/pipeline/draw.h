@@ -100,17 +100,16 @@ public:
     [[gnu::flatten]] void shadeBlocks(std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
                                       const TriangleChunk& chunk, Tile& tile, Statistics& statistics) const override
     {
-        int current = -1;
-        TriangleWeights triangle;
-        CornerComponents<kCount> corners;
         Counts counts;
-        for (const CoveredBlock& block : blocks) {
-            if (block.triangle != current) {
-                current = block.triangle;
-                triangle.set(batch, current);
-                setCorners(corners, *batch.triangle[current], chunk);
-            }
-            shadeBlock(block, triangle, corners, tile, counts);
+        for (auto block = blocks.begin(); block != blocks.end();) {
+            const int current = block->triangle;
+            TriangleWeights triangle;
+            triangle.set(batch, current);
+            CornerComponents<kCount> corners;
+            setCorners(corners, *batch.triangle[current], chunk);
+            do {
+                shadeBlock(*block, triangle, corners, tile, counts);
+            } while (++block != blocks.end() && block->triangle == current);
         }
         activeLanes = kAllLanes;
         statistics.blocksShaded += counts.blocks;
@@ -175,7 +174,7 @@ private:
         const int index = tile.blockAt(block.x, block.y);
         DepthBounds& bounds = tile.bounds(index);
         if (leavesOut::hidden && isHidden<state.depthTest>(triangle.nearest, triangle.farthest, bounds)) {
-            counts.hidden += static_cast<unsigned>(std::popcount(block.coverage));
+            counts.hidden += static_cast<unsigned>(countBits(block.coverage));
             return;
         }
         const BlockWeights weights = triangle.at(block.x, block.y, block.coverage);
@@ -195,14 +194,14 @@ private:
         };
         if constexpr (kUsesDepth && !kMayDiscard) {
             testAndWriteDepth();
-            counts.hidden += static_cast<unsigned>(std::popcount(block.coverage) - count(live));
+            counts.hidden += static_cast<unsigned>(countBits(block.coverage) - count(live));
             if (leavesOut::hidden && none(live)) return;
         }
 
         const unsigned quads = wholeQuads(leavesOut::hidden ? live.bits() : block.coverage);
         activeLanes = quads;
         counts.blocks += 1;
-        counts.quads += static_cast<unsigned>(std::popcount(quads)) / 4;
+        counts.quads += static_cast<unsigned>(countBits(quads)) / 4;
         counts.pixels += static_cast<unsigned>(count(live));
 
         Discard discard;

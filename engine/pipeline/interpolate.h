@@ -13,6 +13,9 @@
 
 namespace relief {
 
+// One number for all lanes, as it is read fastest: SSE2 has no instruction that spreads a number while it is loaded.
+using Broadcast = std::conditional_t<kLanes == 4, Float, float>;
+
 // The edge values of one block, rounded to float, and what follows from them.
 struct BlockWeights
 {
@@ -31,16 +34,24 @@ public:
         lane = triangle;
         nearest = batch->nearest[lane];
         farthest = batch->farthest[lane];
+        inverseArea = batch->inverseArea[lane];
+        z0 = batch->z0[lane];
+        dz1 = batch->dz1[lane];
+        dz2 = batch->dz2[lane];
         small = (batch->small >> lane & 1u) != 0;
         for (int k = 0; k < 3; ++k) {
+            invW[k] = batch->invW[k][lane];
             if (small) {
-                const Int stepX = batch->stepX[k][lane], stepY = batch->stepY[k][lane];
-                smallLanes[k] = laneXs() * stepX + laneYs() * stepY + batch->origin[k][lane];
+                stepX[k] = batch->stepX[k][lane];
+                stepY[k] = batch->stepY[k][lane];
+                smallLanes[k] = laneXs() * stepX[k] + laneYs() * stepY[k] + batch->origin[k][lane];
             } else {
-                edge[k] = edgeOf(*batch->triangle[lane], k);
-                const Int steps = laneXs() * Int(edge[k].stepX) + laneYs() * Int(edge[k].stepY);
+                const EdgeFunction edge = edgeOf(*batch->triangle[lane], k);
                 // stepX * 3 + stepY * 3 stays below 2^27; times 256 it needs the double.
-                largeLanes[k] = Double(steps) * Double(kSubpixels);
+                const Int steps = laneXs() * edge.stepX + laneYs() * edge.stepY;
+                largeLanes[k] = Double(steps) * Double(kSubpixels) + Double(static_cast<double>(edge.origin));
+                largeStepX[k] = static_cast<double>(edge.stepX) * kSubpixels;
+                largeStepY[k] = static_cast<double>(edge.stepY) * kSubpixels;
             }
         }
     }
@@ -52,11 +63,9 @@ public:
         for (int k = 0; k < 3; ++k) e[k] = edgeValue(k, x, y);
 
         BlockWeights w;
-        const float inverseArea = batch->inverseArea[lane];
         w.linear1 = e[1] * inverseArea;
         w.linear2 = e[2] * inverseArea;
 
-        const float invW[3] = {batch->invW[0][lane], batch->invW[1][lane], batch->invW[2][lane]};
         Float sum = e[0] * invW[0] + e[1] * invW[1] + e[2] * invW[2];
         if (covered != kAllLanes) [[unlikely]] {
             // Beyond the triangle the sum, which is 1/w, may reach zero: behind the horizon. There, attributes come
@@ -77,44 +86,46 @@ public:
     // Linear on screen, and never outside 0 ... 1 and the corners' range, so that coarse depth bounds are safe.
     Float depth(const BlockWeights& w) const
     {
-        return clamp(batch->z0[lane] + w.linear1 * batch->dz1[lane] + w.linear2 * batch->dz2[lane], nearest, farthest);
+        return clamp(z0 + w.linear1 * dz1 + w.linear2 * dz2, nearest, farthest);
     }
 
     // Clip-space w at the pixels.
     Float clipW(const BlockWeights& w) const { return batch->doubledArea[lane] * w.inverseSum * batch->scale[lane]; }
 
-    float nearest = 0, farthest = 0;  // the corners' depths, within 0 ... 1
+    float nearest, farthest;  // the corners' depths, within 0 ... 1
 
 private:
     // E at the pixels of a block: an exact integer either way, then rounded once.
     Float edgeValue(int k, int x, int y) const
     {
         if (small) {
-            const auto stepX = static_cast<std::uint32_t>(batch->stepX[k][lane]);
-            const auto stepY = static_cast<std::uint32_t>(batch->stepY[k][lane]);
-            const std::uint32_t steps = stepX * static_cast<std::uint32_t>(x) + stepY * static_cast<std::uint32_t>(y);
+            const std::uint32_t steps = static_cast<std::uint32_t>(stepX[k]) * static_cast<std::uint32_t>(x) +
+                                        static_cast<std::uint32_t>(stepY[k]) * static_cast<std::uint32_t>(y);
             return Float(smallLanes[k] + static_cast<std::int32_t>(steps));
         }
-        const std::int64_t steps =
-            static_cast<std::int64_t>(edge[k].stepX) * x + static_cast<std::int64_t>(edge[k].stepY) * y;
-        const std::int64_t corner = edge[k].origin + steps * kSubpixels;
-        return toFloat(largeLanes[k] + Double(static_cast<double>(corner)));
+        return toFloat(largeLanes[k] + Double(largeStepX[k] * x + largeStepY[k] * y));
     }
 
-    const TriangleBatch* batch = nullptr;
-    int lane = 0;
-    bool small = false;
-    Int smallLanes[3] = {0, 0, 0};           // E at the pixels of the block at (0, 0), modulo 2^32; of small triangles
-    EdgeFunction edge[3] = {};               // of the others,
-    Double largeLanes[3] = {0.0, 0.0, 0.0};  // and what to add to E at a block's upper left pixel
+    const TriangleBatch* batch;
+    int lane;
+    bool small;
+
+    // E at the pixels of the block at (0, 0), and its steps from one pixel to the next: modulo 2^32 where the triangle
+    // is small, or exact in doubles.
+    Int smallLanes[3];
+    std::int32_t stepX[3], stepY[3];
+    Double largeLanes[3];
+    double largeStepX[3], largeStepY[3];
+
+    // The batch's, of this triangle.
+    Broadcast invW[3], inverseArea, z0, dz1, dz2;
 };
 
 // The components of a triangle's corners, ready to be weighted.
 template <int components>
 struct CornerComponents
 {
-    float first[components + 1] = {}, toSecond[components + 1] = {},
-                             toThird[components + 1] = {};  // + 1: zero components are allowed
+    Broadcast first[components + 1], toSecond[components + 1], toThird[components + 1];  // + 1: there may be none
 
     void set(const float* a, const float* b, const float* c)
     {

@@ -31,7 +31,11 @@ public:
     void store(Framebuffer& target) const;
 
     ColorFormat format() const { return mFormat; }
-    int blockAt(int x, int y) const { return (y - originY) / kBlockHeight * blocksWide + (x - originX) / kBlockWidth; }
+    int blockAt(int x, int y) const
+    {
+        const auto column = static_cast<unsigned>(x - originX), row = static_cast<unsigned>(y - originY);
+        return static_cast<int>(row / kBlockHeight) * blocksWide + static_cast<int>(column / kBlockWidth);
+    }
 
     std::int32_t* color8(int block) { return mColor8.get() + static_cast<std::size_t>(block) * kLanes; }
     float* color32f(int block)

@@ -62,11 +62,35 @@ struct Workers::Pool
     std::atomic<bool> stop{false};
 
     // Each worker begins with a run of tasks of its own, the same in every frame: what they write stays in its caches,
-    // instead of moving from processor to processor. Whoever is done goes on with the others'.
-    struct alignas(64) Share
+    // instead of moving from processor to processor. Whoever is done goes on with the others', from their ends: so what
+    // it takes is nearly the same in every frame, too, and out of the owner's way.
+    class alignas(64) Share
     {
-        std::atomic<int> next{0};
-        int end = 0;
+    public:
+        void set(int begin, int end)
+        {
+            ends.store(std::uint64_t{static_cast<std::uint32_t>(end)} << 32 | static_cast<std::uint32_t>(begin),
+                       std::memory_order_relaxed);
+        }
+
+        // A task, or -1. Both ends are in one number, so that no task is given away twice.
+        int takeFirst()
+        {
+            const std::uint64_t before = ends.fetch_add(1, std::memory_order_relaxed);
+            return isEmpty(before) ? -1 : beginOf(before);
+        }
+        int takeLast()
+        {
+            const std::uint64_t before = ends.fetch_sub(std::uint64_t{1} << 32, std::memory_order_relaxed);
+            return isEmpty(before) ? -1 : endOf(before) - 1;
+        }
+
+    private:
+        static int beginOf(std::uint64_t both) { return static_cast<std::int32_t>(both); }
+        static int endOf(std::uint64_t both) { return static_cast<std::int32_t>(both >> 32); }
+        static bool isEmpty(std::uint64_t both) { return beginOf(both) >= endOf(both); }
+
+        std::atomic<std::uint64_t> ends{0};  // [begin, end), the end in the upper half
     };
 
     Job job{};
@@ -78,9 +102,8 @@ struct Workers::Pool
     {
         const auto count = static_cast<std::int64_t>(shares.size());
         for (std::int64_t i = 0; i < count; ++i) {
-            Share& own = shares[static_cast<std::size_t>(i)];
-            own.next.store(static_cast<int>(tasks * i / count), std::memory_order_relaxed);
-            own.end = static_cast<int>(tasks * (i + 1) / count);
+            shares[static_cast<std::size_t>(i)].set(static_cast<int>(tasks * i / count),
+                                                    static_cast<int>(tasks * (i + 1) / count));
         }
     }
 
@@ -89,9 +112,7 @@ struct Workers::Pool
         const DefaultFloatingPoint environment;
         for (std::size_t i = 0; i < shares.size(); ++i) {
             Share& from = shares[(static_cast<std::size_t>(worker) + i) % shares.size()];
-            for (;;) {
-                const int task = from.next.fetch_add(1, std::memory_order_relaxed);
-                if (task >= from.end) break;
+            for (int task; (task = i == 0 ? from.takeFirst() : from.takeLast()) >= 0;) {
                 job.call(job.context, task, worker);
             }
         }

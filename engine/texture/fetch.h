@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    alignas(64) std::int32_t indices[kLanes];
+    alignas(native::IntVector) std::int32_t indices[kLanes];
 };
 
 inline constexpr float kBias = 8388608.0f;             // 2^23
@@ -56,6 +56,12 @@ inline constexpr std::int32_t kBiasBits = 0x4b000000;  // its bits
 inline Float biasedHalf(Int word)
 {
     return asFloat((word & 0xffff) | kBiasBits);
+}
+
+// The same of the high 16 bits.
+inline Float biasedUpperHalf(Int word)
+{
+    return asFloat(shiftRightLogical(word, 16) | kBiasBits);
 }
 
 // Both with kBias, the result without. Exact in b - a and a - kBias; rounded twice at most, never beyond a and b.
@@ -132,8 +138,9 @@ private:
         const Int left(texels[0]), right(texels[1]);
         const Int rg = (left & 0xffff) | right << 16;
         const Int ba = shiftRightLogical(left, 16) | (right & static_cast<std::int32_t>(0xffff0000));
-        const auto even = [weights](Int bytes) { return multiplyAddHalves(bytes & 0x00ff00ff, weights); };
-        return {even(rg), even(shiftRightLogical(rg, 8)), even(ba), even(shiftRightLogical(ba, 8))};
+        const auto lower = [weights](Int bytes) { return multiplyAddHalves(bytes & 0x00ff00ff, weights); };
+        const auto upper = [weights](Int bytes) { return multiplyAddHalves(upperBytes(bytes), weights); };
+        return {lower(rg), upper(rg), lower(ba), upper(ba)};
     }
 };
 
@@ -149,8 +156,8 @@ struct FetchRgba16
         const detail::TexelIndices indices(index);
         native::loadTransposed<native::TwoWords>(indices.from<kBytes>(level.texels()), words);
         const Int rg(words[0]), ba(words[1]);
-        return {detail::biasedHalf(rg) - detail::kBias, detail::biasedHalf(shiftRightLogical(rg, 16)) - detail::kBias,
-                detail::biasedHalf(ba) - detail::kBias, detail::biasedHalf(shiftRightLogical(ba, 16)) - detail::kBias};
+        return {detail::biasedHalf(rg) - detail::kBias, detail::biasedUpperHalf(rg) - detail::kBias,
+                detail::biasedHalf(ba) - detail::kBias, detail::biasedUpperHalf(ba) - detail::kBias};
     }
 
     [[gnu::always_inline]] static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
@@ -175,14 +182,16 @@ struct FetchRgba16
     }
 
 private:
-    static float4 alongRow(const native::IntVector words[4], Float fx)
+    [[gnu::always_inline]] static float4 alongRow(const native::IntVector words[4], Float fx)
     {
         const Int rg0(words[0]), ba0(words[1]), rg1(words[2]), ba1(words[3]);
-        const auto mixHalves = [fx](Int a, Int b) {
+        const auto lower = [fx](Int a, Int b) {
             return detail::mixBiased(detail::biasedHalf(a), detail::biasedHalf(b), fx);
         };
-        return {mixHalves(rg0, rg1), mixHalves(shiftRightLogical(rg0, 16), shiftRightLogical(rg1, 16)),
-                mixHalves(ba0, ba1), mixHalves(shiftRightLogical(ba0, 16), shiftRightLogical(ba1, 16))};
+        const auto upper = [fx](Int a, Int b) {
+            return detail::mixBiased(detail::biasedUpperHalf(a), detail::biasedUpperHalf(b), fx);
+        };
+        return {lower(rg0, rg1), upper(rg0, rg1), lower(ba0, ba1), upper(ba0, ba1)};
     }
 };
 

@@ -2,7 +2,8 @@
 // lane on one mip level, goes straight through; a block that spans several levels runs once per level.
 //
 // All of this is inlined into two functions per format (finestIn and mipChainIn in sampler.cpp): a call in between
-// would move every register through memory.
+// would move every register through memory. The rare cases that are called take their parameters by value, or these
+// would be in memory for the others, too.
 #pragma once
 
 #include <bit>
@@ -80,7 +81,7 @@ float4 texelOrBorder(const sampler2D& s, const MipLevel& level, Int x, Int y)
 }
 
 template <class Fetch>
-[[gnu::noinline]] float4 bilinearWithBorder(const sampler2D& s, const MipLevel& level, const Pairs& at)
+[[gnu::noinline]] float4 bilinearWithBorder(const sampler2D& s, const MipLevel& level, Pairs at)
 {
     const float4 lowerLeft = texelOrBorder<Fetch>(s, level, at.x, at.y);
     const float4 lowerRight = texelOrBorder<Fetch>(s, level, at.x + 1, at.y);
@@ -91,6 +92,13 @@ template <class Fetch>
 }
 
 // --- on one level ---
+
+// Of positions within the frame. Both factors are below 2^15: a product of halves is faster than one of whole words.
+inline Int texelIndex(const MipLevel& level, Int x, Int y)
+{
+    static_assert(kMaxTextureSide + 64 < 1 << 15);  // frame and padding included
+    return multiplyAddHalves(y, level.rowTexels()) + x;
+}
 
 // A border has an alpha of its own.
 inline bool leavesOutAlpha(const Place& place, const MipLevel& level)
@@ -105,7 +113,7 @@ template <class Fetch>
     const Int y = nearestPosition(place.sampler.v, place.v, level.height(), level.heightInFloat());
     if (hasBorder(place.sampler)) [[unlikely]]
         return texelOrBorder<Fetch>(place.sampler, level, x, y);
-    return Fetch::nearest(level, y * level.rowTexels() + x);
+    return Fetch::nearest(level, texelIndex(level, x, y));
 }
 
 template <class Fetch>
@@ -113,7 +121,7 @@ template <class Fetch>
 {
     if (hasBorder(place.sampler)) [[unlikely]]
         return bilinearWithBorder<Fetch>(place.sampler, level, at);
-    return Fetch::bilinear(level, at.y * level.rowTexels() + at.x, at.fx, at.fy);
+    return Fetch::bilinear(level, texelIndex(level, at.x, at.y), at.fx, at.fy);
 }
 
 template <class Fetch>
@@ -158,7 +166,7 @@ template <class Fetch>
 
 // Every lane on its own level: one round per distinct level.
 template <class Fetch>
-[[gnu::noinline]] float4 sampleSeveralLevels(const Place& place, Int level, Int fraction)
+[[gnu::noinline]] float4 sampleSeveralLevels(Place place, Int level, Int fraction)
 {
     std::int32_t levels[kLanes];
     level.store(levels);

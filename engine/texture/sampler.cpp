@@ -3,7 +3,6 @@
 #include "texture/sampler.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "hlsl/derivatives.h"
 #include "hlsl/intrinsics.h"
@@ -81,7 +80,7 @@ inline float4 sampleMipChain(const sampler2D& s, const Texture& texture, Float u
 
 inline std::uint64_t countOf(unsigned lanes)
 {
-    return static_cast<std::uint64_t>(std::popcount(lanes));
+    return static_cast<std::uint64_t>(countBits(lanes));
 }
 
 inline bool isAnisotropic(const sampler2D& s)
