@@ -172,21 +172,31 @@ Expected<void> write(const Measured& m, const ReportOptions& options)
     return writeReport(options, e.id + ".md", page(m, options));
 }
 
+// What surprises most, in order.
+constexpr const char* kSurprises[] = {"E-22", "E-05", "E-03", "E-15", "E-30"};
+
 std::string index(const std::vector<Measured>& all, const ReportOptions& options)
 {
-    std::string list;
+    const auto link = [](const Experiment& e) { return "[" + e.id + " " + e.title + "](" + e.id + ".md)"; };
+    std::string surprises, list;
+    for (const char* const id : kSurprises) {
+        for (const Measured& m : all) {
+            if (m.experiment.id == id)
+                surprises += "1. " + link(m.experiment) + ": " + m.experiment.finding(m.rows) + "\n";
+        }
+    }
     for (const Measured& m : all) {
         std::size_t held = 0;
         for (std::size_t i = 0; i < m.checked.size(); ++i) held += m.experiment.checks[i].holds(m.checked[i]);
-        list += "| [" + m.experiment.id + "](" + m.experiment.id + ".md) | " + m.experiment.title + " | " +
-                std::to_string(m.rows.all.size()) + " | " + std::to_string(held) + " of " +
-                std::to_string(m.checked.size()) + " | " + m.experiment.finding(m.rows) + " |\n";
+        list += "| " + link(m.experiment) + " | " + std::to_string(m.rows.all.size()) + " | " + std::to_string(held) +
+                " of " + std::to_string(m.checked.size()) + " | " + m.experiment.finding(m.rows) + " |\n";
     }
     return reportHead("Error against run time", options) +
            "\nEach approximation beside its exact reference: what it gets wrong, and what that saves. An experiment's "
-           "page has all variants, the plot, and the reference values that the errors were held to.\n\n"
-           "| | | variants | reference values held | what came out |\n|---|---|---|---|---|\n" +
-           list;
+           "page has all variants, the plot, and the reference values that the errors were held to. The numbers in the "
+           "sentences are those of the pages' tables.\n\n## The five that surprise most\n\n" +
+           surprises +
+           "\n## All\n\n| experiment | variants | reference values held | what came out |\n|---|---|---|---|\n" + list;
 }
 
 }  // namespace
