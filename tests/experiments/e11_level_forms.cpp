@@ -230,7 +230,7 @@ Experiment levelForms(Effort effort)
         const Row &bits = rows("length", "bits"), &third = rows("length", "degree 3");
         return "The longer derivative is up to " + number(length.fact("worst too sharp"), 3) +
                " levels sharper than the ellipse, with an RMS of " + number(length.outcome.error.rms, 3) +
-               "; OpenGL maximum up to " + number(rows("GL maximum", "log2").fact("worst too blurred"), 3) +
+               "; OpenGL's upper bound up to " + number(rows("GL maximum", "log2").fact("worst too blurred"), 3) +
                " more blurred. Beside that the logarithm hardly counts: a float's bits alone, at most " +
                number(bits.fact("of it the logarithm, worst"), 3) + " levels off, change the RMS to " +
                number(bits.outcome.error.rms, 3) + ", and degree 3, good enough for 8 bits of fraction, to " +

@@ -165,8 +165,7 @@ Experiment filters(Effort effort)
                             [w] { return amplitude(1.0 / w.period, w.minification, false); }, 1e-4});
     }
     // Each doubling of the samples comes closer to the mean, over all scenes. On planes at less than 2 texels across a
-    // pixel it does not: there a coarser level, which fewer samples ask for, happens to be nearer the mean than level
-    // 0.
+    // pixel it does not: there a coarser level, which fewer samples ask for, can be nearer the mean than level 0.
     for (int n = 2; n <= 16; n *= 2) {
         const auto rms = [effort](int taps) {
             return outcomeOf(sampler(Filter::trilinear, true, taps), reference(effort)).error.rms;
@@ -182,7 +181,7 @@ Experiment filters(Effort effort)
         const std::string lucky = two < four ? "More samples are not always better: at 60 degrees the error is " +
                                                    number(two, 1) + " with up to 2 and " + number(four, 1) +
                                                    " with up to 4, since two lie closer together than the footprint is "
-                                                   "long, which makes up for the blur of the levels. "
+                                                   "long, which seems to make up for the blur of the levels. "
                                              : "";
         return "Without mip levels the RMS error is " + number(none.outcome.error.rms, 1) + " codes, trilinear " +
                number(tri.outcome.error.rms, 1) + ", with up to 16 samples along the footprint " +

@@ -266,7 +266,9 @@ Experiment normalStorage(Effort effort)
                number(wide.outcome.error.rms, 4) + ") are better than three halves (" +
                number(half.outcome.error.rms, 4) +
                ") in less memory. DXT5nm stores y in 6 bits, so even flat is tilted by " + number(dxt.fact("flat"), 2) +
-               " degrees; with 8 bits by " + number(xy.fact("flat"), 2) + ", with signed codes not at all.";
+               " degrees, and by " + number(rows("DXT5nm ends in 8").fact("flat"), 2) +
+               " where a decoder, as the engine's, first makes 8 bits of the 6; with 8 bits stored by " +
+               number(xy.fact("flat"), 2) + ", with signed codes not at all.";
     };
     return e;
 }

@@ -22,8 +22,9 @@ struct Triangles
     std::vector<Corners> corners;
 };
 
-// Near pixel (3800, 2100), corners within a square of `size` pixels, w from 1 to `ratio`.
-Triangles trianglesOf(int size, double ratio, int count)
+// Near pixel (3800, 2100), corners within a square of `size` pixels. Their w are anywhere in 1 ... ratio, evenly by
+// logarithm; with `both` the first corner has w 1 and the second `ratio`.
+Triangles trianglesOf(int size, double ratio, int count, bool both = false)
 {
     Triangles t;
     std::mt19937 random(17);
@@ -33,7 +34,8 @@ Triangles trianglesOf(int size, double ratio, int count)
         for (int k = 0; k < 3; ++k) {
             triangle.x[k] = 3800 * kSubpixels + static_cast<int>(unit() * size * kSubpixels);
             triangle.y[k] = 2100 * kSubpixels + static_cast<int>(unit() * size * kSubpixels);
-            triangle.invW[k] = static_cast<float>(k == 0 ? 1.0 : k == 1 ? 1.0 / ratio : std::pow(ratio, -unit()));
+            const double w = both && k < 2 ? (k == 0 ? 1.0 : ratio) : std::pow(ratio, unit());
+            triangle.invW[k] = static_cast<float>(1.0 / w);
         }
         const std::int64_t area =
             static_cast<std::int64_t>(triangle.x[1] - triangle.x[0]) * (triangle.y[2] - triangle.y[0]) -
@@ -126,7 +128,7 @@ struct FromPlanes
     }
 };
 
-// --- every triangle's blocks, or every `stride`-th of them each way ---
+// --- every triangle's blocks, or those in every `stride`-th square of 4x4 pixels each way ---
 
 template <class Method, class Take>
 void interpolateAll(const Triangles& t, int stride, Take take)
@@ -141,8 +143,11 @@ void interpolateAll(const Triangles& t, int stride, Take take)
             const auto at = static_cast<std::size_t>(first + i);
             method.begin(i, t.corners[at]);
             const Rectangle r = sampleBounds(t.all[at], {0, 0, 8192, 8192});
-            for (int y = r.y0 & -kBlockHeight; y < r.y1; y += stride * kBlockHeight) {
-                for (int x = r.x0 & -kBlockWidth; x < r.x1; x += stride * kBlockWidth) take(at, x, y, method.at(x, y));
+            for (int y = r.y0 & -kBlockHeight; y < r.y1; y += kBlockHeight) {
+                if (stride > 1 && y / 4 % stride != 0) continue;
+                for (int x = r.x0 & -kBlockWidth; x < r.x1; x += kBlockWidth) {
+                    if (stride == 1 || x / 4 % stride == 0) take(at, x, y, method.at(x, y));
+                }
             }
         }
     }
@@ -168,9 +173,9 @@ bool exactU(const Triangle& t, const Corners& c, int x, int y, double& u)
 // Errors beyond the whole texture, infinities and NaN among them, count as 1: so they do where a plane of 1/w reaches
 // 0.
 template <class Method>
-Error errorOf(int size, double ratio, int count)
+Error errorOf(int size, double ratio, int count, bool both = false)
 {
-    const Triangles t = trianglesOf(size, ratio, count);
+    const Triangles t = trianglesOf(size, ratio, count, both);
     ErrorSum sum;
     interpolateAll<Method>(t, std::max(1, size / 64), [&](std::size_t triangle, int x, int y, const Uv& uv) {
         for (int lane = 0; lane < kLanes; ++lane) {
@@ -230,14 +235,14 @@ Experiment attributeSetup(Effort effort)
     const auto add = [&]<class Method>(const std::string& name, Method*) {
         for (const int size : {2, 16, 512}) {
             const auto few = size == 512 ? count / 10 / kLanes * kLanes : count;
-            e.variants.push_back({name, std::to_string(size) + " px",
-                                  [=] {
-                                      const Error mild = errorOf<Method>(size, 10.0, few);
-                                      return Outcome(
-                                          errorOf<Method>(size, 1e4, few),
-                                          {{"worst at w ratio 10", mild.max}, {"RMS at w ratio 10", mild.rms}});
-                                  },
-                                  workOf<Method>(size)});
+            e.variants.push_back(
+                {name, std::to_string(size) + " px",
+                 [=] {
+                     const Error mild = errorOf<Method>(size, 10.0, few), hard = errorOf<Method>(size, 1e4, few, true);
+                     return Outcome(errorOf<Method>(size, 1e4, few),
+                                    {{"RMS, w to 10", mild.rms}, {"worst, from w 1 to 10000", hard.max}});
+                 },
+                 workOf<Method>(size)});
         }
     };
     add("edges, engine", static_cast<FromEdges*>(nullptr));
@@ -259,9 +264,11 @@ Experiment attributeSetup(Effort effort)
         const std::string of = ", " + std::to_string(r.size) + " px, w ratio " + number(r.ratio, 0);
         const int some = r.size == 512 ? count / 10 / kLanes * kLanes : count;
         e.checks.push_back({"plane at origin, log10 of RMS" + of, std::log10(r.origin),
-                            [=] { return std::log10(errorOf<FromPlanes<false>>(r.size, r.ratio, some).rms); }, 1.0});
+                            [=] { return std::log10(errorOf<FromPlanes<false>>(r.size, r.ratio, some).rms); },
+                            effort.full ? 0.7 : 1.0});
         e.checks.push_back({"plane at corner, log10 of RMS" + of, std::log10(r.corner),
-                            [=] { return std::log10(errorOf<FromPlanes<true>>(r.size, r.ratio, some).rms); }, 1.0});
+                            [=] { return std::log10(errorOf<FromPlanes<true>>(r.size, r.ratio, some).rms); },
+                            effort.full ? 0.7 : 1.0});
         e.checks.push_back({"edges, log10 of RMS" + of, std::log10(r.edges),
                             [=] { return std::log10(errorOf<FromEdges>(r.size, r.ratio, some).rms); }, 0.5});
         e.checks.push_back({"edges, worst" + of, 8 * 0x1p-24,
@@ -285,8 +292,10 @@ Experiment attributeSetup(Effort effort)
                number(origin.fastest, 1) + ", " + number(corner.fastest, 1) + " and " + number(edges.fastest, 1) +
                " ns, one of 512 pixels " + number(rows("plane at origin", "512 px").fastest, 2) + ", " +
                number(largePlane.fastest, 2) + " and " + number(large.fastest, 2) +
-               ". Moving the plane to a corner of the triangle costs two subtractions and is the least that a renderer "
-               "should do.";
+               ". Moving the plane to a corner of the triangle costs two subtractions. It is the least that a renderer "
+               "should do, but no cure: where that corner is 10000 times nearer than another, it is up to " +
+               tiny(largePlane.fact("worst, from w 1 to 10000")) + " off in triangles of 512 pixels, the engine " +
+               tiny(large.fact("worst, from w 1 to 10000")) + ".";
     };
     return e;
 }

@@ -14,7 +14,8 @@ namespace relief::experiments {
 
 namespace {
 
-constexpr double kEstimateLimit = 1.5 / 4096.0, kFinerLimit = 1.0 / 16384.0, kShaderLimit = 1.0 / 2097152.0;
+[[maybe_unused]] constexpr double kEstimateLimit = 1.5 / 4096.0, kFinerLimit = 1.0 / 16384.0,
+                                  kShaderLimit = 1.0 / 2097152.0;
 
 #if defined(__SSE2__)
 // rcpps and rsqrtps: 12 bits; of at most 8 lanes at a time.

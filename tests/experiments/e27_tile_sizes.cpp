@@ -11,7 +11,7 @@ constexpr int kTriangleSizes[] = {4, 32, 256};  // pixels
 
 std::shared_ptr<const TriangleScene> sceneOf(int size)
 {
-    return std::make_shared<const TriangleScene>(size == 4 ? 20000 : size == 32 ? 2000 : 60, size);
+    return std::make_shared<const TriangleScene>(size == 4 ? 10000 : size == 32 ? 1500 : 40, size);
 }
 
 std::uint64_t hashOfFrame(const TriangleScene& triangles, const FrameOptions& options)

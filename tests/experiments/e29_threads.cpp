@@ -40,7 +40,7 @@ Experiment threads(Effort)
     e.unit = "difference of a channel";
     for (const bool corner : {false, true}) {
         const std::string where = corner ? "in a corner" : "even";
-        const auto triangles = std::make_shared<const TriangleScene>(4000, 32, corner ? 0.15 : 1.0);
+        const auto triangles = std::make_shared<const TriangleScene>(2500, 32, corner ? 0.15 : 1.0);
         for (const int count : kThreadCounts) {
             const FrameOptions options = {.threads = count};
             const auto f = framed(*triangles, options, false), one = framed(*triangles, {.threads = 1}, false);
