@@ -113,7 +113,8 @@ Expected<Counts> countInstructions(const std::string& program, const std::string
     Counts counts{dumpedCounts(folder), output.value_or("")};
     std::filesystem::remove_all(folder, ignored);
     if (!output || counts.instructions.empty()) {
-        return fail("instructions were not counted, by a program built before valgrind was installed, or: " + command);
+        return fail("instructions were not counted; build " + program +
+                    " again, now that valgrind is installed, or run this to see why: " + command);
     }
     return counts;
 }
