@@ -4,8 +4,14 @@
 set datafile separator ","
 set terminal svg size 960,540 font "sans,13" background "white"
 table = id.".csv"
-stats table using (column("err_rms") > 1e-12 ? log10(column("err_rms")) : 1/0) nooutput
-smallest = STATS_records > 0 ? 10 ** (floor(STATS_min) - 1) : 1e-3
+stats table using (column("err_rms") > 1e-12) nooutput
+smallest = 1e-3
+if (STATS_sum > 0) {
+    stats table using (column("err_rms") > 1e-12 ? log10(column("err_rms")) : 1/0) nooutput
+    smallest = 10 ** (floor(STATS_min) - 1)
+} else {
+    set xrange [smallest / 10 : smallest * 10]
+}
 shown(error) = error > 1e-12 ? error : smallest
 array X[words(names)]
 array Y[words(names)]
