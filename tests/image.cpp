@@ -291,15 +291,18 @@ TEST_CASE("image: damaged compressed data")
     CHECK(contains(errorOf(folder.write("b.png", bytes)), "is damaged"));
 }
 
-TEST_CASE("image: an unknown chunk of a PNG whose type has line ends in it is an error of one line")
+TEST_CASE("image: an unknown chunk of a PNG whose type has line ends or zeros in it is an error of one line")
 {
     const TemporaryFolder folder;
     REQUIRE(writePng(folder / "a.png", 9, 7, noisyPixels(63)).has_value());
     const std::string bytes = bytesOf(folder / "a.png");
-    const std::string error =
-        errorOf(folder.write("b.png", bytes.substr(0, 33) + chunk("\nA\nB", "data") + bytes.substr(33)));
-    CHECK(contains(error, "is damaged (PNG chunk not known)"));
-    CHECK(error.find('\n') == std::string::npos);
+    for (const std::string& type : {std::string("\nA\nB"), std::string("A\nB\0", 4), std::string("\nA\0B", 4),
+                                    std::string("\n\0AB", 4), std::string("\0\nAB", 4)}) {
+        const std::string error =
+            errorOf(folder.write("b.png", bytes.substr(0, 33) + chunk(type, "") + bytes.substr(33)));
+        CHECK(contains(error, "is damaged (PNG chunk not known)"));
+        CHECK(error.find('\n') == std::string::npos);
+    }
 }
 
 TEST_CASE("image: an empty chunk of compressed data before the full one changes nothing")

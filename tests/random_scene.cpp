@@ -23,11 +23,13 @@ using namespace relief;
 
 std::uint64_t Source::next()
 {
-    std::uint64_t given = 0;
-    const std::size_t count = std::min<std::size_t>(bytes.size(), 4);
-    std::memcpy(&given, bytes.data(), count);
-    bytes = bytes.subspan(count);
-    if (count > 0) return given * 0x9e3779b97f4a7c15u ^ given;
+    if (!bytes.empty()) {
+        const std::size_t count = std::min<std::size_t>(bytes.size(), 4);
+        std::uint64_t given = 0;
+        std::memcpy(&given, bytes.data(), count);
+        bytes = bytes.subspan(count);
+        return given * 0x9e3779b97f4a7c15u ^ given;
+    }
     state += 0x9e3779b97f4a7c15u;
     std::uint64_t z = state;
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;

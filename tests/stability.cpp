@@ -2,9 +2,11 @@
 #include "stability.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -390,15 +392,22 @@ TEST_CASE("stability: every case of the table has a test or says what does not e
         CHECK(known.insert(c.id).second);
         CHECK((testsOf[c.id] > 0) == (c.missing == nullptr));
     }
-    for (const auto& [id, count] : testsOf) {
-        CAPTURE(id);
-        CHECK(known.count(id) == 1);
+    for (const auto& tested : testsOf) {
+        CAPTURE(tested.first);
+        CHECK((known.count(tested.first) == 1 || tested.second == 0));
     }
     CHECK(known.size() == 193);
 }
 
-TEST_CASE("stability: ids are found in names, and numbers that are too large fail")
+TEST_CASE("stability: ids are found in names")
 {
     CHECK(stability::idsIn("clip: two (S-202, S-1006)") == std::vector<std::string>{"S-202", "S-1006"});
     CHECK(stability::idsIn("XS-1 T-05 plain").empty());
+}
+
+TEST_CASE("stability: a number above its bound fails, and so does one that is none" * doctest::expected_failures(2))
+{
+    stability::measured("at its bound", 1, 1);
+    stability::measured("above", 2, 1);
+    stability::measured("NaN", std::nan(""), 1);
 }

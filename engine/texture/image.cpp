@@ -91,13 +91,14 @@ Size pngSize(const Bytes& bytes)
 constexpr std::string_view kNotAnImage = "unknown image type";  // stb's words
 
 // Why the last call of stb on this thread failed. Of a chunk that it does not know stb names the type, four bytes of
-// the file, which may be anything, line ends included: they are left out.
+// the file. They may be anything, line ends and the end of the text included, and are left out; stb has no other reason
+// of fewer than four letters.
 std::string_view lastReason()
 {
-    std::string_view reason = stbi_failure_reason() ? stbi_failure_reason() : "";
     constexpr std::string_view kUnknownChunk = "PNG chunk not known";
-    if (reason.ends_with(kUnknownChunk)) reason = kUnknownChunk;
-    return reason;
+    if (!stbi_failure_reason()) return "";
+    const std::string_view reason = stbi_failure_reason();
+    return reason.size() < 4 || reason.ends_with(kUnknownChunk) ? kUnknownChunk : reason;
 }
 
 // Runs one of stb's load functions on the file and copies the pixels out of stb's memory.
