@@ -190,7 +190,7 @@ Experiment lightingModels(Effort effort)
                             {.9, .5, .9997, .3957},
                             {.9, .1, .9935, .3649}}) {
         // The references' quadrature is coarser than this one where the viewer grazes the surface.
-        const double tolerance = a.NdotV < 0.5 ? 3e-3 : 3e-4;
+        const double tolerance = a.NdotV < 0.5 ? 3e-3 : 1e-3;
         const std::string at =
             "share of light at smoothness " + number(a.smoothness, 2) + ", N.V " + number(a.NdotV, 1);
         e.checks.push_back(
