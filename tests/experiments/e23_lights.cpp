@@ -253,6 +253,7 @@ Experiment lights(Effort)
         "which rounds every sum. How many codes of 8 bits does each cost, on a plane of 128 x 128 pixels?";
     e.item = "pixel";
     e.unit = "8-bit codes";
+    e.rivals = Rivals::ofOneParameter;
     for (const int cells : {1, 4, 16, 64})
         e.variants.push_back(
             variant({"per vertex", std::to_string(cells) + " x " + std::to_string(cells), 4, cells, true, false, 32}));
