@@ -1,6 +1,6 @@
 # The variants of an experiment: error against time, from ID.csv in the current folder. `relief report error` runs it,
-# with id, unit, item, names ("'one' 'another'") and front ("0 2": the undominated rows by error) set. What is exact has
-# no place on a logarithmic axis: it stands a decade left of the smallest error.
+# with id, unit, item, names ("'one' 'another'"), front ("0 2": the undominated rows by error) and joined (1: by a line)
+# set. What is exact has no place on a logarithmic axis: it stands a decade left of the smallest error.
 set datafile separator ","
 set terminal svg size 960,540 font "sans,13" background "white"
 table = id.".csv"
@@ -20,7 +20,7 @@ do for [r = 1:words(names)] {
     X[r] = STATS_max_x
     Y[r] = STATS_max_y
 }
-do for [k = 2:words(front)] {
+do for [k = 2:(joined ? words(front) : 1)] {
     from = int(word(front, k - 1)) + 1
     to = int(word(front, k)) + 1
     set arrow from X[from], Y[from] to X[to], Y[to] nohead linecolor "gray40" linewidth 2

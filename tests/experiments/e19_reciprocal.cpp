@@ -138,6 +138,7 @@ Experiment reciprocal(Effort effort)
         "division and root, which give the same bits everywhere?";
     e.item = "value";
     e.unit = "relative error";
+    e.rivals = Rivals::ofOneName;
     const auto in = randomColumns({{0.5, 4.0}});
     Kind rcpKind = {e, effort, in, "1/x", false}, rsqrtKind = {e, effort, in, "1/sqrt", true};
     rcpKind.add(

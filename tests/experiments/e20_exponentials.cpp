@@ -203,6 +203,7 @@ Experiment exponentials(Effort effort)
         "number is the jump where one piece ends and the next begins: it draws a line into a highlight.";
     e.item = "value";
     e.unit = "relative (log2: absolute) error";
+    e.rivals = Rivals::ofOneName;
     Truth exp2Truth = {"exp2", -4.0, 4.0, [](double x) { return std::exp2(x); }, true, {}};
     for (const double seam : {1.0, 2.0, 3.0}) exp2Truth.seams.push_back(seam);
     Truth log2Truth = {"log2", 0.5, 2.0, [](double x) { return std::log2(x); }, false, {}};

@@ -121,6 +121,7 @@ Experiment srgb(Effort effort)
         "save? The curve is steepest near black: there a table of evenly spaced entries is worst.";
     e.item = "channel";
     e.unit = "8-bit codes";
+    e.rivals = Rivals::ofOneName;
     const auto in = randomColumns({{0.0, 1.0}});
     const int samples = effort.samples(1 << 20, 1 << 17);
     const auto encode = [&](const std::string& name, auto f, int entries) {

@@ -253,9 +253,11 @@ Experiment lights(Effort)
         "which rounds every sum. How many codes of 8 bits does each cost, on a plane of 128 x 128 pixels?";
     e.item = "pixel";
     e.unit = "8-bit codes";
-    for (const int cells : {1, 4, 16, 64})
-        e.variants.push_back(
-            variant({"per vertex", std::to_string(cells) + " x " + std::to_string(cells), 4, cells, true, false, 32}));
+    e.rivals = Rivals::ofOneParameter;
+    for (const int cells : {1, 4, 16, 64}) {
+        const std::string n = std::to_string(cells);
+        e.variants.push_back(variant({"per vertex " + n + " x " + n, "4 lights", 4, cells, true, false, 32}));
+    }
     e.variants.push_back(variant({"per fragment", "4 lights", 4, 1, false, false, 32}));
     for (const int count : {2, 4, 8, 16}) {
         const std::string name = std::to_string(count) + " lights";
@@ -304,7 +306,7 @@ Experiment lights(Effort)
     e.checks.push_back({"a vertex light at its range", .0384615, [] { return attenuation(1.0); }, 1e-6});
 
     e.finding = [](const Rows& rows) {
-        const Row &coarse = rows("per vertex", "1 x 1"), &fine = rows("per vertex", "64 x 64"),
+        const Row &coarse = rows("per vertex 1 x 1", "4 lights"), &fine = rows("per vertex 64 x 64", "4 lights"),
                   &fragment = rows("per fragment", "4 lights"), &passes = rows("passes, 8 bits", "16 lights"),
                   &once = rows("one pass, 8 bits", "16 lights");
         return "Per vertex on two triangles four lights are wrong by up to " + number(coarse.outcome.error.max, 0) +

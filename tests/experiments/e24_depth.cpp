@@ -155,6 +155,7 @@ Experiment depth(Effort effort)
         "projected and compared in floats as a pipeline does it. The engine stores floats, standard or reversed.";
     e.item = "fragment";
     e.unit = "gap / distance";
+    e.rivals = Rivals::ofOneParameter;
     for (const Range r : {Range{.1, 1000}, Range{.01, 1e4}}) {
         add<Format::d16>(e, r, effort);
         add<Format::d24>(e, r, effort);

@@ -35,6 +35,7 @@ Experiment tileSizes(Effort)
         "pixel: it has to be 0. (Tiles of 8 pixels the engine does not have.)";
     e.item = "pixel";
     e.unit = "triangles over a pixel";
+    e.rivals = Rivals::ofOneParameter;
     for (const int size : kTriangleSizes) {
         const auto triangles = sceneOf(size);
         for (const int tile : kTileSizes) {

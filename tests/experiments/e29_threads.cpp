@@ -38,6 +38,7 @@ Experiment threads(Effort)
         "corner?";
     e.item = "pixel";
     e.unit = "difference of a channel";
+    e.rivals = Rivals::ofOneParameter;
     for (const bool corner : {false, true}) {
         const std::string where = corner ? "in a corner" : "even";
         const auto triangles = std::make_shared<const TriangleScene>(2500, 32, corner ? 0.15 : 1.0);

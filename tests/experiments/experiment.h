@@ -92,7 +92,7 @@ struct Row
     double fastest = 0.0, median = 0.0, deviation = 0.0;  // the last: median absolute deviation
     std::optional<double> streaming;                      // fastest
     std::optional<double> instructions;
-    bool isOnFront = false;  // no other variant beats it in error and time together
+    bool isOnFront = false;  // no rival beats it in error and time together
 
     double fact(const std::string& factName) const;  // NaN: there is none of that name
 };
@@ -104,12 +104,21 @@ public:
     const Row& operator()(const std::string& name, const std::string& parameter = "") const;  // ends if there is none
 };
 
+// Which variants do the same, so that one can be better than another.
+enum class Rivals
+{
+    all,
+    ofOneName,
+    ofOneParameter
+};
+
 struct Experiment
 {
     std::string id, title;  // "E-01"
     std::string question;   // what is compared with what, in plain words
     std::string item;       // what a time is of: "decode"
     std::string unit;       // of the errors: "degrees"
+    Rivals rivals = Rivals::all;
     std::vector<Variant> variants;
     std::vector<Check> checks;
     std::function<std::string(const Rows&)> finding;  // what came out, with the numbers of the rows

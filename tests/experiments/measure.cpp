@@ -49,13 +49,19 @@ bool beats(const Row& a, const Row& b)
     return errorA <= errorB && a.fastest <= b.fastest && (errorA < 0.99 * errorB || a.fastest < 0.97 * b.fastest);
 }
 
+bool areRivals(const Row& a, const Row& b, Rivals rivals)
+{
+    return rivals == Rivals::all || (rivals == Rivals::ofOneName ? a.name == b.name : a.parameter == b.parameter);
+}
+
 }  // namespace
 
-void markFront(Rows& rows)
+void markFront(Rows& rows, Rivals rivals)
 {
     for (Row& row : rows.all) {
-        row.isOnFront =
-            std::none_of(rows.all.begin(), rows.all.end(), [&](const Row& other) { return beats(other, row); });
+        row.isOnFront = std::none_of(rows.all.begin(), rows.all.end(), [&](const Row& other) {
+            return areRivals(other, row, rivals) && beats(other, row);
+        });
     }
 }
 
@@ -84,7 +90,7 @@ Rows measure(const Experiment& experiment, int rounds, const Progress& progress)
         row.deviation = medianOf(std::move(deviations));
         if (experiment.variants[i].streaming.run) row.streaming = streaming[streamed++].fastest();
     }
-    markFront(rows);
+    markFront(rows, experiment.rivals);
     return rows;
 }
 

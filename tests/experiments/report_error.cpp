@@ -130,7 +130,8 @@ std::string plotSettings(const Measured& m)
     for (const std::size_t i : order) front += m.rows.all[i].isOnFront ? std::to_string(i) + " " : "";
     for (const Row& row : m.rows.all) names += "'" + fullName(row) + "' ";
     return "id=\"" + m.experiment.id + "\"; unit=\"" + m.experiment.unit + "\"; item=\"" + m.experiment.item +
-           "\"; names=\"" + names + "\"; front=\"" + front + "\"";
+           "\"; names=\"" + names + "\"; front=\"" + front +
+           "\"; joined=" + (m.experiment.rivals == Rivals::all ? "1" : "0");
 }
 
 // --- measuring and writing ---
