@@ -10,7 +10,7 @@ Expected<void> reportTriplanar(const ReportOptions& options);
 Expected<void> reportLeaveOut(const ReportOptions& options);
 Expected<void> reportPerformance(const ReportOptions& options);  // in tests/benchmarks
 Expected<void> reportStability(const ReportOptions& options);
-Expected<void> reportError(const ReportOptions& options);        // in tests/experiments
+Expected<void> reportError(const ReportOptions& options);  // in tests/experiments
 
 // The lines that a report begins with: title, the command that made it, the machine, the compiler and the commit.
 std::string reportHead(const std::string& title, const ReportOptions& options);

@@ -99,7 +99,7 @@ Experiment bumpScale(Effort)
     // From asin(1 / s) on nothing is left of z.
     for (const auto& [scale, tilt] : {std::pair{2.0, 30.0}, {4.0, 14.4775}, {8.0, 7.18076}}) {
         e.checks.push_back({"root lies flat at scale " + number(scale, 0) + ", " + number(tilt, 4) + " degrees", 90.0,
-                            [=] { return tiltOf(rootAfter, tilt + 1e-4, scale); }, 1e-3});
+                            [s = scale, t = tilt] { return tiltOf(rootAfter, t + 1e-4, s); }, 1e-3});
     }
     e.finding = [](const Rows& rows) {
         const Row &root = rows("x and y, then the root"), &stored = rows("x and y, stored z"), &slopes = rows("slopes");

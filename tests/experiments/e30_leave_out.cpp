@@ -164,6 +164,7 @@ Experiment leaveOut(Effort)
         "are those against the branch.";
     e.item = "fragment";
     e.unit = "codes of 255";
+    e.rivals = Rivals::ofOneParameter;
     add<everything ^ normalMap>(e, "no normal map");
     add<everything ^ detailMap>(e, "no detail");
     add<everything ^ highlight>(e, "no highlight");

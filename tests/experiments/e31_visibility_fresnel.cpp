@@ -94,6 +94,7 @@ Experiment visibilityAndFresnel(Effort effort)
         "light for Fresnel.";
     e.item = "evaluation";
     e.unit = "percent";
+    e.rivals = Rivals::ofOneName;
     const int steps = effort.samples(256, 32);
     const auto in = randomColumns({{0.002, 1.0}, {0.01, 1.0}, {0.01, 1.0}});
     const auto visibility = [&](const char* name, auto f) {
