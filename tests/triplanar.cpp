@@ -1,5 +1,5 @@
 // Triplanar mapping: weights (stability cases S-701 to S-709), the methods against surfaces that are moved in double
-// (numerics T-05), and signs: six sides, both handednesses, both kinds of normal map (S-713).
+// (T-05), and signs: six sides, both handednesses, both kinds of normal map (S-713).
 #include "shading/triplanar.h"
 
 #include <algorithm>
