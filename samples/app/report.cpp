@@ -61,13 +61,14 @@ std::string compiler()
 
 }  // namespace
 
-// Of the sources that lie where they were built.
+// Of the sources that lie where they were built. Reports that were written since are no change of these.
 std::string reportCommit()
 {
     const std::string git = "git -C " + quoted(RELIEF_SOURCE_FOLDER) + " ";
     std::string hash = outputOf(git + "rev-parse --short=12 HEAD").value_or("unknown");
     if (!hash.empty() && hash.back() == '\n') hash.pop_back();
-    const std::optional<std::string> changes = outputOf(git + "status --porcelain --untracked-files=no");
+    const std::optional<std::string> changes =
+        outputOf(git + "status --porcelain --untracked-files=no -- ':!docs/report'");
     return changes && !changes->empty() ? hash + " and changes that are not committed" : hash;
 }
 
