@@ -29,6 +29,7 @@ Experiment srgb(Effort effort);
 Experiment lightingModels(Effort effort);
 Experiment lights(Effort effort);
 Experiment depth(Effort effort);
+Experiment supersampling(Effort effort);
 Experiment halfInterpolants(Effort effort);
 Experiment tileSizes(Effort effort);
 Experiment lanes(Effort effort);
