@@ -65,7 +65,7 @@ Expected<std::vector<std::string>> testNames(const ReportOptions& options)
 {
     const std::string filter = "*S-*," + std::string(kRandomScenes) + "*";
     const std::optional<std::string> list =
-        outputOf(quoted(options.tests) + " --no-colors --list-test-cases --test-case=" + quoted(filter) + " 2>&1");
+        outputOf(quoted(options.tests) + " --no-colors --list-test-cases --test-case=" + quoted(filter));
     if (!list || list->find("[doctest]") == std::string::npos) {
         return fail("report stability: " + options.tests +
                     " does not run, or is no test program; run ./relief report stability");
@@ -108,7 +108,7 @@ Expected<Results> runTests(const ReportOptions& options)
         fs::remove(file.path, ignored);
         // Whether it fails stands in the file.
         (void)outputOf("RELIEF_FULL_TRIALS=1 RELIEF_STABILITY_FILE=" + quoted(file.path.string()) + " " +
-                       quoted(options.tests) + " --test-case=" + quoted(withEscapedCommas(name)) + " 2>&1");
+                       quoted(options.tests) + " --test-case=" + quoted(withEscapedCommas(name)));
         std::ifstream stream(file.path);
         const json written = json::parse(stream, nullptr, false);
         results.tests.push_back({name, {}});

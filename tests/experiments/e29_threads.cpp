@@ -61,6 +61,7 @@ Experiment threads(Effort)
             };
             const Work work = {[f, triangles] { f->frame.run(); }, static_cast<double>(s.pixelsShaded)};
             Variant v = {std::to_string(count) + (count == 1 ? " thread" : " threads"), where, outcome, work};
+            v.threads = count;
             v.isCounted = count == 1;  // threads that wait run instructions, now more, now fewer
             e.variants.push_back(v);
             const auto sameAsOne = [=] {

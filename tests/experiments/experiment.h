@@ -69,6 +69,7 @@ struct Variant
     std::function<Outcome()> outcome;
     Work work;              // a frame, or data that stays in the first-level cache
     Work streaming = {};    // the same on data that does not; may be missing
+    int threads = 1;
     bool isCounted = true;  // false: has instructions that the program which counts them may not have
 };
 

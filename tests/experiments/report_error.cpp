@@ -80,11 +80,17 @@ std::string dominated(const Rows& rows)
                          : "Dominated, another is at least as exact and as fast: " + names + ".";
 }
 
+std::string threadsOf(const Experiment& e)
+{
+    const auto isSingle = [](const Variant& v) { return v.threads == 1; };
+    return std::all_of(e.variants.begin(), e.variants.end(), isSingle) ? ", one thread" : "";
+}
+
 std::string page(const Measured& m, const ReportOptions& options)
 {
     const Experiment& e = m.experiment;
     return reportHead(e.id + " " + e.title, options) + "\n" + e.question + "\n\nErrors in " + e.unit +
-           "; times in ns per " + e.item + ", one thread; instructions per " + e.item +
+           "; times in ns per " + e.item + threadsOf(e) + "; instructions per " + e.item +
            (options.countedProgram.empty() ? ": not counted" : ", counted in a build for x86-64-v3, 8 lanes") +
            ".\n\n" + variantsTable(m) + "\n" + dominated(m.rows) + "\n\n![Error against time](" + e.id + ".svg)\n\n" +
            m.experiment.finding(m.rows) + "\n\n" + checksTable(m);
@@ -101,7 +107,8 @@ std::string csv(const Measured& m, const std::string& commit)
         lines += "," + name;
     }
     lines += "\n";
-    for (const Row& row : m.rows.all) {
+    for (std::size_t i = 0; i < m.rows.all.size(); ++i) {
+        const Row& row = m.rows.all[i];
         char hash[20] = "";
         if (row.outcome.imageHash)
             std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(*row.outcome.imageHash));
@@ -111,7 +118,8 @@ std::string csv(const Measured& m, const std::string& commit)
                  "," + text("%.5g", row.median) + "," + text("%.3g", row.deviation) + "," +
                  (row.streaming ? text("%.5g", *row.streaming) : "") + "," +
                  (row.instructions ? text("%.6g", *row.instructions) : "") + "," + (row.isOnFront ? "1" : "0") + "," +
-                 hash + "," + std::to_string(kLanes) + ",1," + commit;
+                 hash + "," + std::to_string(kLanes) + "," + std::to_string(m.experiment.variants[i].threads) + "," +
+                 commit;
         for (const Fact& fact : row.outcome.facts) lines += "," + text("%.9g", fact.value);
         lines += "\n";
     }
