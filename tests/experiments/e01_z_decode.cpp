@@ -9,8 +9,6 @@ namespace relief::experiments {
 
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
-
 constexpr auto root = [](Float x, Float y) { return float3(x, y, sqrt(1.0f - saturate(x * x + y * y))); };
 constexpr auto oneMinusHalf = [](Float x, Float y) { return float3(x, y, 1.0f - (x * x + y * y) * 0.5f); };
 constexpr auto one = [](Float x, Float y) { return float3(x, y, Float(1.0f)); };
@@ -90,9 +88,9 @@ Experiment zDecode(Effort effort)
     e.id = "E-01";
     e.title = "The z of a stored normal";
     e.question =
-        "A normal map stores x and y; z follows from the length 1. The tutorials offer a square root, "
-        "1 - (x² + y²) / 2, and simply 1. How wrong are the two short cuts, and are they faster? Their result is "
-        "not of length 1, so a shader that needs a unit vector pays for a normalize() that the root does not need.";
+        "A normal map stores x and y; z follows from the length 1. The tutorials offer a square root, 1 - (x² + y²) /"
+        " 2, and simply 1. How wrong are the two short cuts, and are they faster? Their result is not of length 1, so"
+        " a shader that needs a unit vector pays for a normalize() that the root does not need.";
     e.item = "decode";
     e.unit = "degrees";
     const auto in = randomColumns({{-0.7, 0.7}, {-0.7, 0.7}});

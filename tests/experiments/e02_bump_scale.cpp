@@ -9,8 +9,6 @@ namespace relief::experiments {
 
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
-
 // All take a normal's x and y, as a texture stores them (0 to 1), its z, and the scale.
 constexpr auto rootAfter = [](Float x, Float y, Float, Float scale) {
     return UnpackScaleNormal(float4(Float(1.0f), y, Float(1.0f), x), scale);
@@ -71,9 +69,9 @@ Experiment bumpScale(Effort)
     e.id = "E-02";
     e.title = "Scaling bumps";
     e.question =
-        "A bump scale is to make a height field s times as high: its slopes s times as steep. A map that stores only x "
-        "and y scales these and then takes the square root for z; a map that stores z keeps it and normalises; and one "
-        "can divide x and y by z, scale, and normalise. Which of them scales slopes?";
+        "A bump scale is to make a height field s times as high: its slopes s times as steep. A map that stores only "
+        "x and y scales these and then takes the square root for z; a map that stores z keeps it and normalises; and "
+        "one can divide x and y by z, scale, and normalise. Which of them scales slopes?";
     e.item = "decode";
     e.unit = "degrees";
     const auto in = randomColumns({{0.2, 0.8}, {0.2, 0.8}, {0.7, 1.0}, {0.5, 2.0}});

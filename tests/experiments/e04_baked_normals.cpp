@@ -148,8 +148,7 @@ Experiment bakedNormalMap(Effort)
     e.question =
         "A normal map is the height map's slopes, taken once (here by the importer's Sobel filter) and stored as "
         "colours: one fetch in place of four, but rounded to the colours' bits. The same wave as in E-03, magnified "
-        "four "
-        "times.";
+        "four times.";
     e.item = "fragment";
     e.unit = "degrees";
     add(e, "heights, central", "8 bits, 1 texel", 4, 4, [](const HeightWave& w) { return OnTheFly(w, 8, 1.0); });

@@ -24,10 +24,10 @@ std::shared_ptr<const Columns> bumps(std::size_t count)
 {
     auto columns = std::make_shared<Columns>(3);
     std::mt19937 random(5);
-    const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
     for (std::size_t i = 0; i < count; ++i) {
-        const double tilt = std::sqrt(uniform()) * 25.0 / 57.29577951308232, side = uniform() * 6.283185307179586;
-        const double length = 0.8 + 0.3 * uniform();
+        const double tilt = std::sqrt(uniform(random)) * 25.0 * kRadians,
+                     side = uniform(random) * 2.0 * std::numbers::pi;
+        const double length = 0.8 + 0.3 * uniform(random);
         const double n[3] = {length * std::sin(tilt) * std::cos(side), length * std::sin(tilt) * std::sin(side),
                              length * std::cos(tilt)};
         for (std::size_t k = 0; k < 3; ++k) (*columns)[k].push_back(static_cast<float>(n[k]));
@@ -74,10 +74,9 @@ Experiment normalizing(Effort effort)
     e.title = "The normalize() after bumping";
     e.question =
         "Interpolated and bumped normals are 0.8 to 1.1 long. What happens without normalize(), and with the "
-        "processor's "
-        "quick estimate of 1 / sqrt, bare or refined by one step of Newton's method? The engine has neither: the "
-        "estimate's last bits differ between processors. Errors are in codes of 255: of Lambert's term here, and at "
-        "most of a highlight (N.H)^n in the columns.";
+        "processor's quick estimate of 1 / sqrt, bare or refined by one step of Newton's method? The engine has "
+        "neither: the estimate's last bits differ between processors. Errors are in codes of 255: of Lambert's term "
+        "here, and at most of a highlight (N.H)^n in the columns.";
     e.item = "fragment";
     e.unit = "codes of 255";
     const auto in = bumps(kStreamedItems);

@@ -78,10 +78,9 @@ Pairs randomPairs(std::size_t count)
 {
     Pairs pairs;
     std::mt19937 random(3);
-    const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
     while (pairs.base.size() < count) {
-        const double a = uniform() * 2.0 * std::numbers::pi, b = uniform() * 2.0 * std::numbers::pi;
-        const double s = 0.1 * std::pow(20.0, uniform()), t = 0.1 * std::pow(20.0, uniform());
+        const double a = uniform(random) * 2.0 * std::numbers::pi, b = uniform(random) * 2.0 * std::numbers::pi;
+        const double s = 0.1 * std::pow(20.0, uniform(random)), t = 0.1 * std::pow(20.0, uniform(random));
         pairs.add(normalOf(s * std::cos(a), s * std::sin(a)), normalOf(t * std::cos(b), t * std::sin(b)));
     }
     return pairs;
@@ -160,10 +159,9 @@ Experiment normalBlends(Effort effort)
     e.id = "E-06";
     e.title = "Two normal maps into one";
     e.question =
-        "There is no right blend before one says what is meant. G1: both maps are heights, and the heights add up (the "
-        "errors below). G2: the detail lies on the base's surface like a relief on a vase, turned with it. Slopes of "
-        "0.1 "
-        "to 2, in all directions to each other.";
+        "There is no right blend before one says what is meant. G1: both maps are heights, and the heights add up "
+        "(the errors below). G2: the detail lies on the base's surface like a relief on a vase, turned with it. "
+        "Slopes of 0.1 to 2, in all directions to each other.";
     e.item = "blend";
     e.unit = "degrees to G1";
     const auto in = std::make_shared<const Columns>(randomPairs(kStreamedItems).columns);

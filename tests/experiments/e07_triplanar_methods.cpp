@@ -12,7 +12,7 @@ namespace {
 
 using namespace samples::triplanar;
 
-constexpr double kRadians = std::numbers::pi / 180.0, kCorner = 54.7356;
+constexpr double kCorner = 54.7356;
 constexpr double kTilts[] = {0.0, 15.0, 30.0, 45.0, kCorner}, kSlopes[] = {0.1, 0.5, 1.0};
 
 // The mesh's own tangents, which know nothing of the plane: those of a sphere that runs along its longitudes, seen from
@@ -132,10 +132,10 @@ Experiment triplanarMethods(Effort effort)
     e.id = "E-07";
     e.title = "Triplanar normals";
     e.question =
-        "A triplanar shader has a normal map's bump and the surface's normal, and no tangents. How far is each way of "
-        "putting them together from what a bump could mean: the surface moved along the projection (the error shown), "
-        "moved along its own normal, or the map turned onto it without any stretch? Surfaces tilted by 0 to 54.7 "
-        "degrees, the most that a plane has to serve; slopes 0.1, 0.5 and 1.";
+        "A triplanar shader has a normal map's bump and the surface's normal, and no tangents. How far is each way of"
+        " putting them together from what a bump could mean: the surface moved along the projection (the error "
+        "shown), moved along its own normal, or the map turned onto it without any stretch? Surfaces tilted by 0 to "
+        "54.7 degrees, the most that a plane has to serve; slopes 0.1, 0.5 and 1.";
     e.item = "fragment";
     e.unit = "degrees";
     std::vector<ColumnRange> ranges(3, {-1.0, 1.0});

@@ -9,7 +9,6 @@ namespace relief::experiments {
 
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 const double kCorner = 1.0 / std::sqrt(3.0);
 
 // Normals evenly spread over the sphere, and heights of the three planes' textures.
@@ -116,10 +115,10 @@ Experiment triplanarWeights(Effort effort)
     e.id = "E-08";
     e.title = "Triplanar weights";
     e.question =
-        "How to mix the three planes: softly, which shows two or three pictures at once nearly everywhere, or sharply, "
-        "which shows borders? The error is the distance from the sharpest mix, each point to the plane that it faces "
-        "most. A plane without weight is not fetched; and in the corner, where all three are equal, a sharp mix "
-        "turns the noise of an 8-bit normal into noise of the weights.";
+        "How to mix the three planes: softly, which shows two or three pictures at once nearly everywhere, or "
+        "sharply, which shows borders? The error is the distance from the sharpest mix, each point to the plane that "
+        "it faces most. A plane without weight is not fetched; and in the corner, where all three are equal, a sharp "
+        "mix turns the noise of an 8-bit normal into noise of the weights.";
     e.item = "fragment";
     e.unit = "weight";
     const auto in = std::make_shared<const Columns>(directions(static_cast<int>(kStreamedItems)));

@@ -134,9 +134,9 @@ Experiment levelForms(Effort effort)
     e.title = "Level of detail: forms and logarithms";
     e.question =
         "A round pixel covers an ellipse of texels, and its longer axis says which mip level is wanted. The engine "
-        "takes the longer of the two derivatives instead, as Direct3D does; OpenGL allows anything between the largest "
-        "component and the sum of the largest in u and v. How many levels do these lie apart, and how exact has the "
-        "logarithm to be that turns a length into a level?";
+        "takes the longer of the two derivatives instead, as Direct3D does; OpenGL allows anything between the "
+        "largest component and the sum of the largest in u and v. How many levels do these lie apart, and how exact "
+        "has the logarithm to be that turns a length into a level?";
     e.item = "pixel";
     e.unit = "levels";
     const auto timed = footprints(kStreamedItems);
@@ -194,7 +194,7 @@ Experiment levelForms(Effort effort)
     // Two derivatives of one length at an angle: how far the ellipse reaches beyond them.
     constexpr double kAngles[][2] = {{0, .5}, {15, .487604}, {30, .449984}, {45, .385777}, {60, .292481}, {90, 0}};
     for (const auto& row : kAngles) {
-        const double angle = row[0], c = std::cos(angle / 57.29577951308232), s = std::sin(angle / 57.29577951308232);
+        const double angle = row[0], c = std::cos(angle * kRadians), s = std::sin(angle * kRadians);
         e.checks.push_back({"ellipse less length at " + number(angle, 0) + " degrees", row[1],
                             [=] { return levelOf(ellipse, 1, 0, c, s) - levelOf(longest, 1, 0, c, s); }, kLevel});
     }

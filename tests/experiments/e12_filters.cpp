@@ -129,10 +129,9 @@ Experiment filters(Effort effort)
     e.question =
         "A pixel shows the mean of all the texels that it covers; a filter looks at a few texels of a mip level "
         "instead. How far from the mean are the filters, on a zone plate at 1 to 64 texels per pixel and on a "
-        "checkered "
-        "plane that is tilted away by 60 to 89.5 degrees (2 to 4 texels across a pixel), and what does a sample cost? "
-        "The reference is the finest "
-        "level, supersampled; beside it stands an elliptically weighted average, which is a little softer.";
+        "checkered plane that is tilted away by 60 to 89.5 degrees (2 to 4 texels across a pixel), and what does a "
+        "sample cost? The reference is the finest level, supersampled; beside it stands an elliptically weighted "
+        "average, which is a little softer.";
     e.item = "sample";
     e.unit = "codes of 255";
     const auto timed = std::make_shared<const Columns>(coordinates(views(kStreamedItems)));

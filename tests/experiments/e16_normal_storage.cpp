@@ -14,8 +14,6 @@ namespace relief::experiments {
 
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
-
 // --- formats: a normal packed into words, and the kernel that unpacks it ---
 
 using Words = std::array<std::uint32_t, 2>;
@@ -213,8 +211,8 @@ Experiment normalStorage(Effort effort)
     e.question =
         "Three numbers or two, 8 bits or 16, halves, or a square unfolded from half an octahedron: how far does a "
         "stored normal point from the one that was meant, and what does unpacking cost? The error is that of normals "
-        "tilted by up to 75 degrees, each counting by its share of the sphere. A format without z "
-        "gets it from x² + y² + z² = 1, which is steep near 90 degrees. Packed texels are in 32-bit words here.";
+        "tilted by up to 75 degrees, each counting by its share of the sphere. A format without z gets it from x² + "
+        "y² + z² = 1, which is steep near 90 degrees. Packed texels are in 32-bit words here.";
     e.item = "texel";
     e.unit = "degrees";
     add(e, kRgb8, unpackRgb8,

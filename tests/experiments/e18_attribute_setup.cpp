@@ -28,13 +28,12 @@ Triangles trianglesOf(int size, double ratio, int count, bool both = false)
 {
     Triangles t;
     std::mt19937 random(17);
-    const auto unit = [&random] { return static_cast<double>(random()) / 4294967296.0; };
     while (static_cast<int>(t.all.size()) < count) {
         Triangle triangle = {};
         for (int k = 0; k < 3; ++k) {
-            triangle.x[k] = 3800 * kSubpixels + static_cast<int>(unit() * size * kSubpixels);
-            triangle.y[k] = 2100 * kSubpixels + static_cast<int>(unit() * size * kSubpixels);
-            const double w = both && k < 2 ? (k == 0 ? 1.0 : ratio) : std::pow(ratio, unit());
+            triangle.x[k] = 3800 * kSubpixels + static_cast<int>(uniform(random) * size * kSubpixels);
+            triangle.y[k] = 2100 * kSubpixels + static_cast<int>(uniform(random) * size * kSubpixels);
+            const double w = both && k < 2 ? (k == 0 ? 1.0 : ratio) : std::pow(ratio, uniform(random));
             triangle.invW[k] = static_cast<float>(1.0 / w);
         }
         const std::int64_t area =
@@ -42,7 +41,7 @@ Triangles trianglesOf(int size, double ratio, int count, bool both = false)
             static_cast<std::int64_t>(triangle.x[2] - triangle.x[0]) * (triangle.y[1] - triangle.y[0]);
         if (area < 0) std::swap(triangle.x[1], triangle.x[2]), std::swap(triangle.y[1], triangle.y[2]);
         Corners c;
-        for (auto& uv : c.uv) uv[0] = static_cast<float>(unit()), uv[1] = static_cast<float>(unit());
+        for (auto& uv : c.uv) uv[0] = static_cast<float>(uniform(random)), uv[1] = static_cast<float>(uniform(random));
         if (area != 0) t.all.push_back(triangle), t.corners.push_back(c);
     }
     return t;
@@ -224,11 +223,10 @@ Experiment attributeSetup(Effort effort)
     e.question =
         "u/w, v/w and 1/w are planes over the screen, and many renderers store each as three floats. For a triangle "
         "near pixel (3800, 2100) such a plane, taken from the screen's corner, is the small difference of large "
-        "numbers; taken from a corner of the triangle it is not. The engine weights the corners by exact integer edge "
-        "values "
-        "instead. How far is u, in widths of the texture, off where w changes by 10000 within a triangle of 2, 16 and "
-        "512 pixels, and "
-        "what does a pixel cost, with two components and the setup? Only rows of one size compare.";
+        "numbers; taken from a corner of the triangle it is not. The engine weights the corners by exact integer edge"
+        " values instead. How far is u, in widths of the texture, off where w changes by 10000 within a triangle of "
+        "2, 16 and 512 pixels, and what does a pixel cost, with two components and the setup? Only rows of one size "
+        "compare.";
     e.item = "covered pixel";
     e.unit = "texture widths";
     const int count = effort.samples(4000, 320) / kLanes * kLanes;

@@ -198,9 +198,9 @@ Experiment exponentials(Effort effort)
     e.id = "E-20";
     e.title = "exp2, log2 and pow";
     e.question =
-        "pow(x, y) is exp2(y log2 x), and both are a polynomial for the fraction and a shift for the whole part. Which "
-        "degree is enough, and what does it save? Errors of exp2 and pow are relative, of log2 absolute. A second "
-        "number is the jump where one piece ends and the next begins: it draws a line into a highlight.";
+        "pow(x, y) is exp2(y log2 x), and both are a polynomial for the fraction and a shift for the whole part. "
+        "Which degree is enough, and what does it save? Errors of exp2 and pow are relative, of log2 absolute. A "
+        "second number is the jump where one piece ends and the next begins: it draws a line into a highlight.";
     e.item = "value";
     e.unit = "relative (log2: absolute) error";
     e.rivals = Rivals::ofOneName;

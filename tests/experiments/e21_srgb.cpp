@@ -1,4 +1,5 @@
 // E-21: linear colours to sRGB and back: tables, and curves that look alike.
+#include "exact_srgb.h"
 #include "experiments.h"
 #include "lane_kernel.h"
 #include "lanes/math.h"
@@ -7,12 +8,6 @@
 namespace relief::experiments {
 
 namespace {
-
-// Direct3D 11.3, 3.2.3.8.
-double encodeExactly(double linear)
-{
-    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 // The nearest of evenly spaced entries, fetched lane by lane.
 Float fetch(const float* table, int entries, Float x)
@@ -28,7 +23,7 @@ auto encodeByTable(int entries)
 {
     std::vector<float> table;
     for (int i = 0; i < entries; ++i)
-        table.push_back(static_cast<float>(encodeExactly(static_cast<double>(i) / (entries - 1))));
+        table.push_back(static_cast<float>(encodedSrgb(static_cast<double>(i) / (entries - 1))));
     return [entries, kept = std::make_shared<const std::vector<float>>(std::move(table))](Float x) {
         return fetch(kept->data(), entries, x);
     };
@@ -72,7 +67,7 @@ Error encodeError(Function f, int samples)
     ErrorSum sum;
     for (std::size_t i = 0; i < in[0].size(); ++i) {
         const double x = in[0][i], weight = std::cbrt(x * x);  // as if evenly spread
-        sum.add(255.0 * (out[0][i] - encodeExactly(x)), weight);
+        sum.add(255.0 * (out[0][i] - encodedSrgb(x)), weight);
     }
     return sum.result();
 }
@@ -91,7 +86,7 @@ Error decodeError(Function f)
     const Columns out = evaluate<1>(allCodes(false), f);
     ErrorSum sum;
     for (std::size_t code = 0; code < 256; ++code)
-        sum.add(255.0 * encodeExactly(out[0][code]) - static_cast<double>(code));
+        sum.add(255.0 * encodedSrgb(out[0][code]) - static_cast<double>(code));
     return sum.result();
 }
 
@@ -103,7 +98,7 @@ double wrongCodes(Function f, bool encodes)
     double wrong = 0.0;
     for (std::size_t code = 0; code < 256; ++code) {
         const double y = out[0][code];
-        wrong += std::floor(255.0 * (encodes ? y : encodeExactly(y)) + 0.5) != static_cast<double>(code);
+        wrong += std::floor(255.0 * (encodes ? y : encodedSrgb(y)) + 0.5) != static_cast<double>(code);
     }
     return wrong;
 }
@@ -116,9 +111,9 @@ Experiment srgb(Effort effort)
     e.id = "E-21";
     e.title = "Linear light to sRGB and back";
     e.question =
-        "The exact curve has a power of 2.4. Tables, a cubic, a power of 2.2 and a square stand in for it. How far off "
-        "are they, in codes of an 8-bit picture, how many of its 256 codes come back as another one, and what do they "
-        "save? The curve is steepest near black: there a table of evenly spaced entries is worst.";
+        "The exact curve has a power of 2.4. Tables, a cubic, a power of 2.2 and a square stand in for it. How far "
+        "off are they, in codes of an 8-bit picture, how many of its 256 codes come back as another one, and what do "
+        "they save? The curve is steepest near black: there a table of evenly spaced entries is worst.";
     e.item = "channel";
     e.unit = "8-bit codes";
     e.rivals = Rivals::ofOneName;
@@ -170,7 +165,7 @@ Experiment srgb(Effort effort)
     e.checks.push_back({"encode, Unity, at 55/65536", 2.72697,
                         [] {
                             const Columns one(1, std::vector<float>(16, 55.0f / 65536.0f));
-                            return 255.0 * (encodeExactly(one[0][0]) - evaluate<1>(one, encodeUnity)[0][0]);
+                            return 255.0 * (encodedSrgb(one[0][0]) - evaluate<1>(one, encodeUnity)[0][0]);
                         },
                         1e-3});
     e.checks.push_back({"encode, Unity", 2.74700, [=] { return encodeError(encodeUnity, samples).max; }, 1e-3});

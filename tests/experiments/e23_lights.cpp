@@ -25,9 +25,7 @@ struct LightOver
 std::vector<LightOver> lightsOver(int count, double height)
 {
     std::mt19937 random(23);
-    const auto between = [&random](double low, double high) {
-        return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
-    };
+    const auto between = [&random](double low, double high) { return low + (high - low) * uniform(random); };
     std::vector<LightOver> all;
     for (int i = 0; i < count; ++i) {
         LightOver& light = all.emplace_back();
@@ -219,7 +217,7 @@ double errorOfRandomSums(int passes)
         Int codes = 0;
         for (int pass = 0; pass < passes; ++pass) {
             for (int lane = 0; lane < kLanes; ++lane) {
-                amounts[lane] = static_cast<float>(codesEach / 255.0 * static_cast<double>(random()) / 4294967296.0);
+                amounts[lane] = static_cast<float>(codesEach / 255.0 * uniform(random));
                 exact[lane] += static_cast<double>(amounts[lane]);
             }
             codes = toUnorm8(unpackRgba8(codes).x + Float::load(amounts));
@@ -248,8 +246,8 @@ Experiment lights(Effort)
     e.id = "E-23";
     e.title = "Lights: where and how they are added up";
     e.question =
-        "A light computed at vertices costs little, and is interpolated; on large triangles its highlight is missing. "
-        "Several lights can be summed up in one shader, or each in a pass of its own that is added to the target, "
+        "A light computed at vertices costs little, and is interpolated; on large triangles its highlight is missing."
+        " Several lights can be summed up in one shader, or each in a pass of its own that is added to the target, "
         "which rounds every sum. How many codes of 8 bits does each cost, on a plane of 128 x 128 pixels?";
     e.item = "pixel";
     e.unit = "8-bit codes";

@@ -106,7 +106,7 @@ double wrongPairs(Range r, int pairs)
     Columns in(2);
     std::mt19937 random(24);
     for (int i = 0; i < pairs; ++i) {
-        const double part = static_cast<double>(random()) / 4294967296.0, w = r.near * std::pow(r.far / r.near, part);
+        const double part = uniform(random), w = r.near * std::pow(r.far / r.near, part);
         in[0].push_back(static_cast<float>(w));
         in[1].push_back(static_cast<float>(w * (1.0 + 1e-5)));
     }
@@ -150,8 +150,8 @@ Experiment depth(Effort effort)
     e.title = "What a depth buffer stores";
     e.question =
         "z/w uses up nearly all of its range close to the camera. How far apart must two surfaces be to be told from "
-        "each other, as a part of their distance, with 16 or 24 bits, a float, a float of reversed z/w, of 1/w, or of "
-        "the distance itself? The error is that gap by storage alone; the pairs, 1e-5 of their distance apart, are "
+        "each other, as a part of their distance, with 16 or 24 bits, a float, a float of reversed z/w, of 1/w, or of"
+        " the distance itself? The error is that gap by storage alone; the pairs, 1e-5 of their distance apart, are "
         "projected and compared in floats as a pipeline does it. The engine stores floats, standard or reversed.";
     e.item = "fragment";
     e.unit = "gap / distance";

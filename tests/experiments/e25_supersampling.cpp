@@ -150,8 +150,8 @@ Experiment supersampling(Effort effort)
     e.title = "Smooth edges by more samples";
     e.question =
         "With one sample a pixel is inside a triangle or not: edges are stairs. The engine has no multisampling; a "
-        "picture drawn n times as wide and high, and averaged, is smooth. How far is a pixel's coverage from the exact "
-        "area, over the pixels that an edge passes, in all directions? Averaging is in the times.";
+        "picture drawn n times as wide and high, and averaged, is smooth. How far is a pixel's coverage from the "
+        "exact area, over the pixels that an edge passes, in all directions? Averaging is in the times.";
     e.item = "finished pixel";
     e.unit = "parts of a pixel";
     const int angles = effort.samples(720, 240);

@@ -24,11 +24,11 @@ struct Inputs
 std::vector<Inputs> inputs(std::size_t count, double range)
 {
     std::mt19937 random(26);
-    const auto unit = [&random] { return static_cast<double>(random()) / 4294967296.0; };
     std::vector<Inputs> all;
     for (std::size_t i = 0; i < count; ++i) {
-        const double u = unit() * range, v = unit() * range;
-        const double z = 2.0 * unit() - 1.0, around = 2.0 * std::numbers::pi * unit(), r = std::sqrt(1.0 - z * z);
+        const double u = uniform(random) * range, v = uniform(random) * range;
+        const double z = 2.0 * uniform(random) - 1.0, around = 2.0 * std::numbers::pi * uniform(random),
+                     r = std::sqrt(1.0 - z * z);
         all.push_back({u, v, {r * std::cos(around), r * std::sin(around), z}});
     }
     return all;
@@ -205,8 +205,8 @@ Experiment halfInterpolants(Effort effort)
     e.title = "Interpolants as halves";
     e.question =
         "A half has 11 significant bits and takes half the memory of a float. A renderer that keeps each fragment's "
-        "texture coordinate and normal between two passes could store them so. How many texels of a 1024 texture does "
-        "that move a fragment, and its normal how far, and what does reading them back cost? Halves are unpacked in "
+        "texture coordinate and normal between two passes could store them so. How many texels of a 1024 texture does"
+        " that move a fragment, and its normal how far, and what does reading them back cost? Halves are unpacked in "
         "integers here, since not every processor has an instruction for it; beyond 65504 there are none.";
     e.item = "fragment";
     e.unit = "texels";

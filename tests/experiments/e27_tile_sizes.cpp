@@ -30,9 +30,9 @@ Experiment tileSizes(Effort)
     e.title = "Tile sizes";
     e.question =
         "The engine draws a picture tile by tile. Small tiles stay in the cache and share out well between threads; "
-        "but a triangle is taken up once for every tile that it touches. Which size is fastest for small, middling and "
-        "large triangles? The error is by how many triangles a pixel's count differs from exact coverage, pixel by "
-        "pixel: it has to be 0. (Tiles of 8 pixels the engine does not have.)";
+        "but a triangle is taken up once for every tile that it touches. Which size is fastest for small, middling "
+        "and large triangles? The error is by how many triangles a pixel's count differs from exact coverage, pixel "
+        "by pixel: it has to be 0. (Tiles of 8 pixels the engine does not have.)";
     e.item = "pixel";
     e.unit = "triangles over a pixel";
     e.rivals = Rivals::ofOneParameter;

@@ -168,9 +168,8 @@ Experiment lanes(Effort)
     e.title = "Lanes";
     e.question =
         "A shader runs on 4, 8 or 16 pixels at a time. Does each get the same bits as alone, and how much faster is "
-        "it? "
-        "The same program on plain floats, on vectors as wide as this build's instruction set has them, and on the "
-        "engine's lanes. One more variant rounds a * b + c once instead of twice. (Whole engines of other lane "
+        "it? The same program on plain floats, on vectors as wide as this build's instruction set has them, and on "
+        "the engine's lanes. One more variant rounds a * b + c once instead of twice. (Whole engines of other lane "
         "counts are other builds; that their pictures have the same hash is checked in each.)";
     e.item = "fragment";
     e.unit = "8-bit codes";

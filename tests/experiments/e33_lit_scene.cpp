@@ -1,6 +1,7 @@
 // E-33: the choices together, in a whole frame: stage 1.25 at several resolutions, with every filter, lighting model
 // and way to decode normals.
 #include "common/render.h"
+#include "exact_srgb.h"
 #include "experiments.h"
 
 namespace relief::experiments {
@@ -200,8 +201,7 @@ Picture resized(const Picture& from, int width, int height)
 
 double code(float linear)
 {
-    const double c = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-    return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
+    return 255.0 * encodedSrgb(static_cast<double>(linear));
 }
 
 Error difference(const Picture& a, const Picture& b)
@@ -270,10 +270,9 @@ Experiment litScene(Effort effort)
     e.title = "The lit scene as a whole";
     e.question =
         "A budget can be spent on pixels, on the texture filter, on the lighting model or on the normals. Stage 1.25 "
-        "in "
-        "every combination, as a screen of 960x540 shows it: larger pictures averaged, smaller ones interpolated. The "
-        "reference has 16 samples a pixel, 16 times anisotropic, with the exact lighting model. Times are milliseconds "
-        "per frame, on one thread.";
+        "in every combination, as a screen of 960x540 shows it: larger pictures averaged, smaller ones interpolated. "
+        "The reference has 16 samples a pixel, 16 times anisotropic, with the exact lighting model. Times are "
+        "milliseconds per frame, on one thread.";
     e.item = "millionth of a frame (= ms per frame)";
     e.unit = "codes of 255";
     const int width = effort.samples(960, 96), height = effort.samples(540, 54);

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -67,8 +69,8 @@ struct Variant
 {
     std::string name, parameter;
     std::function<Outcome()> outcome;
-    Work work;              // a frame, or data that stays in the first-level cache
-    Work streaming = {};    // the same on data that does not; may be missing
+    Work work;            // a frame, or data that stays in the first-level cache
+    Work streaming = {};  // the same on data that does not; may be missing
     int threads = 1;
     bool isCounted = true;  // false: has instructions that the program which counts them may not have
 };
@@ -139,6 +141,15 @@ struct Entry
 };
 const std::vector<Entry>& experiments();
 
+inline constexpr double kRadians = std::numbers::pi / 180.0,
+                        kDegrees = 180.0 / std::numbers::pi;  // in one of the other
+
+// In [0, 1), the same on every machine.
+inline double uniform(std::mt19937& random)
+{
+    return static_cast<double>(random()) / 4294967296.0;
+}
+
 // The angle between two vectors of any lengths, in degrees; exact where acos of a dot product is not.
 template <class V>
 double degreesBetween(const V& a, const V& b)
@@ -150,7 +161,7 @@ double degreesBetween(const V& a, const V& b)
                      z = v.z / vLength + sign * w.z / wLength;
         return std::sqrt(x * x + y * y + z * z);
     };
-    return 2.0 * std::atan2(unit(a, -1.0, b), unit(a, 1.0, b)) * 57.29577951308232;
+    return 2.0 * std::atan2(unit(a, -1.0, b), unit(a, 1.0, b)) * kDegrees;
 }
 
 }  // namespace relief::experiments

@@ -116,7 +116,7 @@ inline std::shared_ptr<const Columns> randomColumns(const std::vector<ColumnRang
     for (const ColumnRange& range : ranges) {
         std::vector<float>& column = columns->emplace_back(rows);
         for (float& x : column) {
-            x = static_cast<float>(range.low + (range.high - range.low) * static_cast<double>(random()) / 4294967296.0);
+            x = static_cast<float>(range.low + (range.high - range.low) * uniform(random));
         }
     }
     return columns;

@@ -90,9 +90,7 @@ inline std::vector<View> views(std::size_t count)
     constexpr double zoneTexels[] = {1.0, 2.5, 6.0, 15.0, 32.0, 64.0}, planeTexels[] = {2.0, 3.0, 4.0};
     std::vector<View> all;
     std::mt19937 random(3);
-    const auto between = [&random](double low, double high) {
-        return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
-    };
+    const auto between = [&random](double low, double high) { return low + (high - low) * uniform(random); };
     for (std::size_t block = 0; all.size() < count; ++block) {
         View corner;
         const std::size_t scene = block % 5, turn = block / 5;
@@ -118,8 +116,7 @@ inline double supersampled(const View& view, int n, std::mt19937& random)
 {
     double sum = 0.0;
     for (int i = 0; i < n * n; ++i) {
-        const double jx = static_cast<double>(random()) / 4294967296.0,
-                     jy = static_cast<double>(random()) / 4294967296.0;
+        const double jx = uniform(random), jy = uniform(random);
         const View::Point p = view((i % n + jx) / n - 0.5, (i / n + jy) / n - 0.5);
         sum += patterns().bilinear(view.channel, p.u, p.v);
     }
