@@ -90,6 +90,29 @@ TEST_CASE("sampler_lanes: tex2D is tex2Dgrad with the quad's differences, tex2Db
     }
 }
 
+TEST_CASE("sampler_lanes: the biases of sampler and call together count from -16 to 15.99 (S-511)")
+{
+    const Texture texture = randomTexture(TexelFormat::rgba8, 64, 64);
+    struct Row
+    {
+        float texels, bias, level;  // a level before bias of -10 and of 18
+    };
+    for (const Row& row : {Row{0x1p-10f, 100.0f, 5.99f}, Row{0x1p-10f, 12.5f, 2.5f}, Row{0x1p18f, -100.0f, 2.0f},
+                           Row{0x1p18f, -14.5f, 3.5f}}) {
+        CAPTURE(row.bias);
+        const float2 uv = evenly(row.texels);
+        const sampler2D plain{.texture = &texture}, whole{.texture = &texture, .lodBias = row.bias},
+            half{.texture = &texture, .lodBias = 0.5f * row.bias};
+        const float4 expected = tex2Dlod(plain, {uv.x, uv.y, Float(0.0f), Float(row.level)});
+        const float4 bySampler = tex2D(whole, uv),
+                     byBoth = tex2Dbias(half, {uv.x, uv.y, Float(0.0f), Float(0.5f * row.bias)});
+        for (int i = 0; i < kLanes; ++i) {
+            CHECK(sameBits(bySampler, expected, i));
+            CHECK(sameBits(byBoth, expected, i));
+        }
+    }
+}
+
 TEST_CASE("sampler_lanes: lanes that do not count neither build levels nor change counters")
 {
     const Texture texture = randomTexture(TexelFormat::rgba8, 64, 64);
