@@ -6,33 +6,48 @@
 // in full, RELIEF_GENERIC=all does everything. `relief report leave-out` measures with it what each saves.
 #pragma once
 
-#if defined(RELIEF_SWITCHES)
-#include <cstdlib>
-#include <cstring>
-#endif
+#include <string_view>
+
+#include "error.h"
 
 namespace relief::leavesOut {
 
-#if defined(RELIEF_SWITCHES)
-inline bool unlessGeneric(const char* name)
+// Of each its name, the file where it is decided, and what putting it back means.
+#define RELIEF_LEAVES_OUT(each)                                                                                     \
+    each(constants, "texture/sampler.cpp", "textures of one texel are fetched from")                                \
+        each(alpha, "texture/filter.h", "alpha is filtered where it is 1 everywhere")                               \
+            each(logarithms, "texture/sampler.cpp", "the level of detail is worked out where a block is magnified") \
+                each(coarserLevel, "texture/filter.h", "the second mip level is fetched where its part is 0")       \
+                    each(planes, "texture/sampler.cpp", "planes without weight are fetched (triplanar)")            \
+                        each(clipping, "pipeline/setup.cpp", "every triangle goes through the clipper")             \
+                            each(tiles, "pipeline/frame.cpp", "tiles without triangles are drawn in tile memory")   \
+                                each(hidden, "pipeline/draw.h", "hidden pixels are shaded")
+
+struct LeftOut
 {
-    const char* const generic = std::getenv("RELIEF_GENERIC");
-    return generic == nullptr || (std::strstr(generic, name) == nullptr && std::strcmp(generic, "all") != 0);
-}
-#define RELIEF_LEAVES_OUT(name) inline const bool name = unlessGeneric(#name)
+    const char* name;
+    const char* decidedIn;
+    const char* putBack;
+};
+
+#define RELIEF_ROW(name, decidedIn, putBack) {#name, decidedIn, putBack},
+inline constexpr LeftOut kAll[] = {RELIEF_LEAVES_OUT(RELIEF_ROW)};
+#undef RELIEF_ROW
+
+// What RELIEF_GENERIC says; empty in builds without switches.
+std::string_view generic();
+
+// Whether words with spaces between them put this name back; and an error that names the first of them that is no name.
+bool putsBack(std::string_view words, std::string_view name);
+Expected<void> checkGeneric(std::string_view words);
+
+#if defined(RELIEF_SWITCHES)
+#define RELIEF_SWITCH(name, decidedIn, putBack) inline const bool name = !putsBack(generic(), #name);
 #else
-#define RELIEF_LEAVES_OUT(name) inline constexpr bool name = true
+#define RELIEF_SWITCH(name, decidedIn, putBack) inline constexpr bool name = true;
 #endif
-
-RELIEF_LEAVES_OUT(constants);     // fetches from a texture of one texel (texture/sampler.cpp)
-RELIEF_LEAVES_OUT(alpha);         // alpha's arithmetic, where a mip level is opaque everywhere (texture/filter.h)
-RELIEF_LEAVES_OUT(logarithms);    // the level of detail, where a block is magnified (texture/sampler.cpp)
-RELIEF_LEAVES_OUT(coarserLevel);  // the second mip level, where its part is 0 (texture/filter.h)
-RELIEF_LEAVES_OUT(planes);        // tex2DWhere's fetch, where no pixel of a block needs it (texture/sampler.cpp)
-RELIEF_LEAVES_OUT(clipping);      // the clipper, for triangles within the guard band (pipeline/setup.cpp)
-RELIEF_LEAVES_OUT(tiles);         // tile memory, where no triangle is (pipeline/frame.cpp)
-RELIEF_LEAVES_OUT(hidden);        // the fragment program, where all of a block is hidden (pipeline/draw.h)
-
+RELIEF_LEAVES_OUT(RELIEF_SWITCH)
+#undef RELIEF_SWITCH
 #undef RELIEF_LEAVES_OUT
 
 }  // namespace relief::leavesOut

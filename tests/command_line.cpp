@@ -258,6 +258,8 @@ TEST_CASE("command line: explain counts, hash does not depend on threads or tile
     CHECK(counts["rasterised"] == 2);
     CHECK(counts["pixels shaded"].get<int>() > 500);
     CHECK(counts["components used"].get<int>() > 0);
+    CHECK(counts["no derivatives taken"].get<int>() > 0);  // nothing but constant textures
+    CHECK(counts["no derivatives taken"] == counts["texture fetches, trilinear"]);
     const std::string one = run(folder.path, "hash 1.09 --size 96x54 --threads 1 --tile 32").out;
     CHECK(one.size() > 16);
     CHECK(run(folder.path, "hash 1.09 --size 96x54 --threads 3 --tile 128").out == one);
@@ -364,6 +366,7 @@ TEST_CASE("command line: explain names the pass that is left out because its lig
     const Outcome json = run(folder.path, "explain 0.07 --size 160x90 --json");
     const auto parsed = nlohmann::json::parse(json.out);
     // Three objects with a base pass and two lights each, less what is left out.
+    CHECK(parsed["counts"]["passes left out"].get<std::size_t>() == parsed["notes"].size());
     CHECK(parsed["counts"]["passes (draws)"].get<int>() == 9 - static_cast<int>(parsed["notes"].size()));
 }
 
@@ -601,6 +604,16 @@ TEST_CASE("command line: report error writes a page, a table and a plot for each
     checkRefused(folder.path, "report error --only E-01 --rounds 1 --counted-program nothing", {"nothing"});
 }
 
+#if defined(RELIEF_SWITCHES)
+TEST_CASE("command line: what RELIEF_GENERIC cannot put back is refused")
+{
+    const TemporaryFolder folder;
+    checkRefused(folder.path, "hash 0.01 --size 16x16", {"RELIEF_GENERIC: nothing named clip ", "clipping"},
+                 "RELIEF_GENERIC=clip");
+    CHECK(run(folder.path, "hash 0.01 --size 16x16", "RELIEF_GENERIC='clipping tiles'").code == 0);
+}
+#endif
+
 TEST_CASE("command line: report leave-out counts for every stage what it did not need")
 {
     const TemporaryFolder folder;
@@ -617,7 +630,7 @@ TEST_CASE("command line: report leave-out counts for every stage what it did not
         CHECK(text.find(part) != std::string::npos);
     std::stringstream table(contents(folder.path / "r/leave-out.csv"));
     std::size_t rows = 0;
-    for (std::string line; std::getline(table, line); ++rows) CHECK(std::count(line.begin(), line.end(), ',') == 15);
+    for (std::string line; std::getline(table, line); ++rows) CHECK(std::count(line.begin(), line.end(), ',') == 17);
     CHECK(rows == relief::samples::allStages().size() + 1);
 #endif
 }

@@ -263,6 +263,32 @@ TEST_CASE("image: a row of a TGA that is cut off after a multiple of 128 bytes")
     CHECK(errorOf(folder.write("a.tga", header + std::string(64 * 8 * 4, 'x'))) == "");
 }
 
+TEST_CASE("image: a TGA that is too short for the size in its header is refused before any pixel is decoded")
+{
+    // 9986x8228 pixels of 24 bits, and 4 bytes of them. The message with numbers comes before the decoder does; the
+    // decoder says of what is too short that it is truncated, and no more.
+    const TemporaryFolder folder;
+    const auto tga = [](char type, char bits, std::size_t length) {
+        return std::string({0, 0, type, 0, 0, 0, 0, 0, 0, 0, 0, 0, '\x02', '\x27', '\x24', '\x20', bits, 0}) +
+               std::string(length, '\x7f');
+    };
+    CHECK(contains(errorOf(folder.write("a.tga", tga(2, 24, 4))),
+                   "is truncated (22 bytes, but 9986x8228 takes at least 246494442); copy or export it again"));
+    CHECK(contains(errorOf(folder.write("b.tga", tga(10, 24, 4))), "takes at least 2567670)"));  // 641913 packets of 4
+    CHECK(contains(errorOf(folder.write("c.tga", tga(11, 8, 4))), "takes at least 1283844)"));   // of 2
+
+    // As short as can be: 3x43 pixels are one packet of 128, and one of 1.
+    std::string runs = {0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 43, 0, 24, 0, '\xff', 1, 2, 3, '\x80', 4, 5, 6};
+    const Image8 image = read8(folder.write("d.tga", runs));
+    CHECK(image.pixels.size() == 3 * 43 * 4);
+    CHECK(image.pixels[0] == 3);
+    CHECK(image.pixels[2 * 4] == 6);  // the last one, at the right of the top row
+    const std::string onePacket = {0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 16, 0, 8, 0, 24, 0, '\xff', 1, 2, 3};
+    CHECK(read8(folder.write("e.tga", onePacket)).pixels.size() == 16 * 8 * 4);
+    runs.pop_back();
+    CHECK(contains(errorOf(folder.write("d.tga", runs)), "is truncated (25 bytes, but 3x43 takes at least 26)"));
+}
+
 TEST_CASE("image: sizes are checked in the header")
 {
     const TemporaryFolder folder;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/render.h"
+#include "leave_out.h"
 #include "mesh/primitives.h"
 #include "pipeline_fixture.h"
 #include "shading/lights.h"
@@ -383,4 +384,43 @@ TEST_CASE("leave out: S-1107 a light that does not reach needs no pass, and ligh
     other += !one.samePixels(draw(&off, false, ignored));
     other += !one.samePixels(draw(nullptr, true, ignored));
     measured("pictures with other bits", other, 0);
+}
+
+TEST_CASE("leave out: the passes of lights that do not reach are counted, anew for each picture")
+{
+    // Three objects under three lights: the lamp of 0.07 does not reach one of them.
+    for (const auto& [id, leftOut] : {std::pair{"0.07", 1}, {"1.25", 0}}) {
+        const auto prepared = PreparedStage::prepare(**findStage(id));
+        REQUIRE(prepared.has_value());
+        Framebuffer target = makeTarget(32, 18);
+        Frame frame(target, {1, kDefaultTileSize});
+        for (int round = 0; round < 2; ++round) {  // a second picture counts anew
+            prepared->record(frame, 32, 18);
+            CHECK(prepared->log->passesLeftOut == leftOut);
+            CHECK(frame.run().draws == static_cast<std::uint64_t>(9 - leftOut));
+        }
+    }
+}
+
+TEST_CASE("leave out: RELIEF_GENERIC holds whole names, and an unknown one is an error that names it")
+{
+    CHECK(leavesOut::putsBack("alpha clipping", "clipping"));
+    CHECK(leavesOut::putsBack("  alpha", "alpha"));
+    CHECK(leavesOut::putsBack("all", "tiles"));
+    CHECK_FALSE(leavesOut::putsBack("alpha clipping", "tiles"));
+    CHECK_FALSE(leavesOut::putsBack("tilesX", "tiles"));
+    CHECK_FALSE(leavesOut::putsBack("", "tiles"));
+
+    CHECK(leavesOut::checkGeneric("").has_value());
+    CHECK(leavesOut::checkGeneric(" all ").has_value());
+    std::string every;
+    for (const leavesOut::LeftOut& left : leavesOut::kAll) every += std::string(left.name) + " ";
+    CHECK(leavesOut::checkGeneric(every).has_value());
+    for (const char* words : {"clip", "tiles clip", "clip all", "  clip tiles"}) {
+        CAPTURE(words);
+        const Expected<void> checked = leavesOut::checkGeneric(words);
+        REQUIRE_FALSE(checked.has_value());
+        CHECK(checked.error().message ==
+              "RELIEF_GENERIC: nothing named clip is left out; use words of: " + every + "all");
+    }
 }

@@ -42,6 +42,16 @@ double peakOfD(Form form, float smoothness)
     return value / (kPi * 0.5 / (form == Form::exact ? 2.0 : 2.0 + 1e-5));
 }
 
+// The exact form's specular light at F = 1, in double.
+double specularInDouble(double a2, const Vector& v, const Vector& l)
+{
+    const Vector h = unit({v.x + l.x, v.y + l.y, v.z + l.z});
+    const double sine2 = h.x * h.x + h.y * h.y, d = a2 + (1.0 - a2) * sine2, NdotL = l.z, NdotV = v.z;
+    const double V =
+        0.5 / (NdotL * std::sqrt(NdotV * NdotV * (1 - a2) + a2) + NdotV * std::sqrt(NdotL * NdotL * (1 - a2) + a2));
+    return V * a2 / (d * d) * NdotL;
+}
+
 // The share of light from all around that leaves towards the viewer, at F = 1. Light directions are taken where the
 // highlight is (GGX half vectors, a stratified grid), so that a narrow one is not missed.
 double specularAlbedo(Form form, double smoothness, double NdotV)
@@ -131,15 +141,27 @@ TEST_CASE("lighting: S-807 around the peak of a mirror, the exact form agrees wi
         const double VdotH = v.x * h.x + v.z * h.z;
         const float3 light = {static_cast<float>(2.0 * VdotH * h.x - v.x), static_cast<float>(-v.y),
                               static_cast<float>(2.0 * VdotH * h.z - v.z)};
-        const Vector l = lane(light);
-        const Vector sum = unit({v.x + l.x, v.y + l.y, v.z + l.z});
-        const double sine2 = sum.x * sum.x + sum.y * sum.y, d = a2 + (1.0 - a2) * sine2, NdotL = l.z, NdotV = v.z;
-        const double V =
-            0.5 / (NdotL * std::sqrt(NdotV * NdotV * (1 - a2) + a2) + NdotV * std::sqrt(NdotL * NdotL * (1 - a2) + a2));
-        const double expected = V * a2 / (d * d) * NdotL;
+        const double expected = specularInDouble(a2, v, lane(light));
         CAPTURE(tilt);
         const auto value = static_cast<double>(lit(Form::exact, kNothing, kWhite, 1.0f, view, light).x[0]);
         measured("around the peak, relative error", std::abs(value / expected - 1.0), 1e-5);
+    }
+}
+
+TEST_CASE("lighting: the exact form agrees with double at all angles, grazing ones too")
+{
+    for (const double smoothness : {0.3, 0.6, 0.9}) {
+        for (const double NdotV : {1.0, 0.5, 0.1, 0.02, 0.004}) {
+            for (const double NdotL : {1.0, 0.5, 0.1, 0.02, 0.004}) {
+                const float3 view = direction(NdotV, 0.0), light = direction(NdotL, 2.0);
+                const double expected = specularInDouble(std::pow(1.0 - smoothness, 4.0), lane(view), lane(light));
+                CAPTURE(smoothness);
+                CAPTURE(NdotV);
+                CAPTURE(NdotL);
+                const float3 value = lit(Form::exact, kNothing, kWhite, static_cast<float>(smoothness), view, light);
+                measured("relative error", std::abs(static_cast<double>(value.x[0]) / expected - 1.0), 1e-5);
+            }
+        }
     }
 }
 

@@ -90,6 +90,29 @@ TEST_CASE("sampler_lanes: tex2D is tex2Dgrad with the quad's differences, tex2Db
     }
 }
 
+TEST_CASE("sampler_lanes: the biases of sampler and call together count from -16 to 15.99 (S-511)")
+{
+    const Texture texture = randomTexture(TexelFormat::rgba8, 64, 64);
+    struct Row
+    {
+        float texels, bias, level;  // a level before bias of -10 and of 18
+    };
+    for (const Row& row : {Row{0x1p-10f, 100.0f, 5.99f}, Row{0x1p-10f, 12.5f, 2.5f}, Row{0x1p18f, -100.0f, 2.0f},
+                           Row{0x1p18f, -14.5f, 3.5f}}) {
+        CAPTURE(row.bias);
+        const float2 uv = evenly(row.texels);
+        const sampler2D plain{.texture = &texture}, whole{.texture = &texture, .lodBias = row.bias},
+            half{.texture = &texture, .lodBias = 0.5f * row.bias};
+        const float4 expected = tex2Dlod(plain, {uv.x, uv.y, Float(0.0f), Float(row.level)});
+        const float4 bySampler = tex2D(whole, uv),
+                     byBoth = tex2Dbias(half, {uv.x, uv.y, Float(0.0f), Float(0.5f * row.bias)});
+        for (int i = 0; i < kLanes; ++i) {
+            CHECK(sameBits(bySampler, expected, i));
+            CHECK(sameBits(byBoth, expected, i));
+        }
+    }
+}
+
 TEST_CASE("sampler_lanes: lanes that do not count neither build levels nor change counters")
 {
     const Texture texture = randomTexture(TexelFormat::rgba8, 64, 64);
@@ -102,7 +125,7 @@ TEST_CASE("sampler_lanes: lanes that do not count neither build levels nor chang
         (void)tex2Dgrad(s, evenly(1.0f), far, zero);
     }
     CHECK(texture.levelsBuilt() == 1);
-    CHECK(fetchCounters == FetchCounters{.trilinear = 4, .magnified = 4, .secondLevelSkipped = 4});
+    CHECK(fetchCounters == FetchCounters{.trilinear = 4, .magnified = 4, .secondLevelSkipped = 4, .noDerivatives = 4});
     {
         const ActiveLanes counting(0u);
         (void)tex2Dgrad(s, evenly(1.0f), zero, zero);
@@ -146,10 +169,48 @@ TEST_CASE("sampler_lanes: counters count lanes, by kind")
           FetchCounters{.anisotropic = n, .magnified = n, .taps = n, .secondLevelSkipped = n});
     CHECK(counted({.maxAnisotropy = 8}, 3.0f) == FetchCounters{.anisotropic = n, .taps = n});
     CHECK(counted({.texture = &Texture::grey()}, 3.0f) ==
-          FetchCounters{.trilinear = n, .constant = n, .magnified = n, .secondLevelSkipped = n});
+          FetchCounters{.trilinear = n, .constant = n, .magnified = n, .secondLevelSkipped = n, .noDerivatives = n});
     FetchCounters sum = counted({}, 3.0f);
     sum += counted({}, 3.0f);
     CHECK(sum.trilinear == 2 * n);
+    sum += counted({.mipmaps = false}, 3.0f);
+    sum += counted({.mipmaps = false}, 3.0f);
+    CHECK(sum.noDerivatives == 2 * n);
+}
+
+TEST_CASE("sampler_lanes: derivatives are taken only where a level of detail is chosen by them")
+{
+    const Texture mipped = randomTexture(TexelFormat::rgba8, 64, 64);
+    const float2 uv = evenly(3.0f), change = {Float(3.0f / 64.0f), Float(0.0f)};
+    const auto level = [&uv](float w) { return float4(uv.x, uv.y, Float(0.0f), Float(w)); };
+    struct Row
+    {
+        const char* what;
+        sampler2D s;
+        bool takes;  // tex2D and tex2Dbias; tex2Dlod and tex2Dgrad never do
+    };
+    for (const Row& row :
+         {Row{"mip levels", {.texture = &mipped}, true}, Row{"nearest", {&mipped, Filter::nearest}, true},
+          Row{"anisotropic", {.texture = &mipped, .maxAnisotropy = 8}, true},
+          Row{"no mip levels", {.texture = &mipped, .mipmaps = false}, false},
+          Row{"one level, and a border", {.texture = &Texture::grey(), .u = AddressMode::border}, false},
+          Row{"constant", {.texture = &Texture::grey()}, false}, Row{"no texture", {}, false}}) {
+        CAPTURE(row.what);
+        for (const unsigned active : {kAllLanes, 0xfu}) {
+            const ActiveLanes counting(active);
+            const auto lanes = static_cast<std::uint64_t>(std::popcount(active));
+            const auto without = [](const auto& sample) {
+                fetchCounters = {};
+                (void)sample();
+                return fetchCounters.noDerivatives;
+            };
+            const std::uint64_t expected = row.takes ? 0 : lanes;
+            CHECK(without([&] { return tex2D(row.s, uv); }) == expected);
+            CHECK(without([&] { return tex2Dbias(row.s, level(0.5f)); }) == expected);
+            CHECK(without([&] { return tex2Dlod(row.s, level(0.5f)); }) == lanes);
+            CHECK(without([&] { return tex2Dgrad(row.s, uv, change, change); }) == lanes);
+        }
+    }
 }
 
 TEST_CASE("sampler_lanes: anisotropic sampling takes as many taps as the footprint is long, at most 16 (S-562, A-30)")
@@ -162,7 +223,7 @@ TEST_CASE("sampler_lanes: anisotropic sampling takes as many taps as the footpri
         int taps;
     };
     for (const Row& row : {Row{4, 1, 4}, Row{16, 1, 16}, Row{1e6f, 1, 16}, Row{1, 1e6f, 16}, Row{3, 2, 2}, Row{8, 8, 1},
-                           Row{8, 0, 8}, Row{0.5f, 0, 1}, Row{2.5f, 0, 3}}) {
+                           Row{8, 0, 8}, Row{0.5f, 0, 1}, Row{2.5f, 0, 3}, Row{2.1f, 0, 3}}) {
         fetchCounters = {};
         (void)tex2Dgrad(s, evenly(1.0f), {Float(row.xu / 64.0f), Float(0.0f)}, {Float(0.0f), Float(row.yv / 64.0f)});
         CAPTURE(row.xu);

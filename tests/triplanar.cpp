@@ -184,6 +184,12 @@ TEST_CASE("triplanar: S-702 in the corners no offset leaves nothing")
             measured("weight off 1/3", std::abs(static_cast<double>(weights.x[0]) - 1.0 / 3.0), 1e-5);
         }
     }
+    // The limit is 0.55, whatever more is asked for.
+    for (const float offset : {0.56f, 0.57f, 1.0f}) {
+        const float3 normal = {0.6f, 0.56f, -0.57f};
+        const float3 limited = TriplanarBlendOffset(normal, 0.55f), weights = TriplanarBlendOffset(normal, offset);
+        for (int plane = 0; plane < 3; ++plane) CHECK(weights[plane][0] == limited[plane][0]);
+    }
     // A normal that interpolation has made short falls back on linear weights.
     CHECK(isPartition(TriplanarBlendOffset(float3(0.3f, 0.3f, 0.2f), 0.5f)));
     CHECK(TriplanarBlendOffset(float3(0.3f, 0.3f, 0.2f), 0.5f).z[0] == 0.25f);

@@ -19,6 +19,8 @@ struct FetchCounters
     std::uint64_t magnified = 0;           // level 0 was enough: a level of detail of 0 or below, or no mip levels
     std::uint64_t taps = 0;                // samples along the footprint, of the anisotropic ones
     std::uint64_t secondLevelSkipped = 0;  // trilinear taps that lie exactly on a level (magnified ones included)
+    std::uint64_t noDerivatives = 0;       // the coordinate was not compared with the neighbouring pixels': no level of
+                                           // detail to choose, or one that the program gave (tex2Dlod, tex2Dgrad)
 
     FetchCounters& operator+=(const FetchCounters& other)
     {
@@ -30,6 +32,7 @@ struct FetchCounters
         magnified += other.magnified;
         taps += other.taps;
         secondLevelSkipped += other.secondLevelSkipped;
+        noDerivatives += other.noDerivatives;
         return *this;
     }
     friend bool operator==(const FetchCounters&, const FetchCounters&) = default;

@@ -18,6 +18,7 @@
 
 #include "file.h"
 #include "texture/jpeg_check.h"
+#include "texture/tga_check.h"
 
 namespace relief {
 namespace {
@@ -174,6 +175,10 @@ Expected<ImageFile> readImage(const std::filesystem::path& path)
     if (size.width > kMaxImageSide || size.height > kMaxImageSide) {
         return fail(name + ": " + toString(size) + " is larger than " + toString({kMaxImageSide, kMaxImageSide}) +
                     "; scale it down");
+    }
+    if (const std::uint64_t fewest = fewestTgaBytes(bytes); bytes.size() < fewest) {
+        return fail(name + ": is truncated (" + std::to_string(bytes.size()) + " bytes, but " + toString(size) +
+                    " takes at least " + std::to_string(fewest) + "); copy or export it again");
     }
 
     const bool isHdr = stbi_is_hdr_from_memory(bytes.data(), length) != 0;

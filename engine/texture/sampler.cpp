@@ -107,6 +107,11 @@ inline void countLevels(const sampler2D& s, unsigned onFinest, unsigned onOneLev
     if (s.filter == Filter::trilinear) fetchCounters.secondLevelSkipped += countOf(onOneLevel & activeLanes);
 }
 
+inline void countNoDerivatives()
+{
+    fetchCounters.noDerivatives += countOf(activeLanes);
+}
+
 // --- the kinds of sample ---
 
 inline float4 sampleFinestCounted(const sampler2D& s, const Texture& texture, Float u, Float v)
@@ -115,6 +120,13 @@ inline float4 sampleFinestCounted(const sampler2D& s, const Texture& texture, Fl
     countLevels(s, kAllLanes, kAllLanes);
     if (isAnisotropic(s)) fetchCounters.taps += countOf(activeLanes);
     return sampleFinest(s, texture, u, v);
+}
+
+// Without mip levels there is no level of detail to choose.
+inline float4 sampleOnlyLevel(const sampler2D& s, const Texture& texture, Float u, Float v)
+{
+    countNoDerivatives();
+    return sampleFinestCounted(s, texture, u, v);
 }
 
 [[gnu::always_inline]] inline float4 sampleIsotropic(const sampler2D& s, const Texture& texture, Float u, Float v,
@@ -169,6 +181,7 @@ inline float2 toTexels(const Texture& texture, const float2& change)
 {
     countSample(s);
     countLevels(s, kAllLanes, kAllLanes);
+    countNoDerivatives();
     fetchCounters.constant += countOf(activeLanes);
     return broadcast(texture.constant());
 }
@@ -257,13 +270,14 @@ inline bool usesMipLevels(const sampler2D& s, const Texture& texture)
     return s.mipmaps && texture.levelCount() > 1;
 }
 
-// With the coordinate's changes at hand.
-template <class Bias>
-float4 sampleBy(const Gradients& change, Bias bias, const sampler2D& s, Float u, Float v)
+// `gradients` gives the coordinate's changes; it is called only where a level of detail is chosen.
+template <class TakeGradients, class Bias>
+float4 sampleBy(TakeGradients gradients, Bias bias, const sampler2D& s, Float u, Float v)
 {
     const Texture& texture = textureOf(s);
     if (isConstant(s, texture)) return sampleConstant(s, texture);
-    if (!usesMipLevels(s, texture)) return sampleFinestCounted(s, texture, u, v);
+    if (!usesMipLevels(s, texture)) return sampleOnlyLevel(s, texture, u, v);
+    const Gradients change = gradients();
     if (isAnisotropic(s)) return sampleAnisotropic(s, texture, u, v, change, bias);
     return sampleIsotropicBy(change, bias, s, texture, u, v);
 }
@@ -292,26 +306,31 @@ float4 sampleImplicit(const sampler2D& s, Float u, Float v)
     if (s.texture == nullptr) return sampleWhite(s, u, v);
     const Texture& texture = *s.texture;
     if (isConstant(s, texture)) return sampleConstant(s, texture);
-    if (!usesMipLevels(s, texture)) return sampleFinestCounted(s, texture, u, v);
+    if (!usesMipLevels(s, texture)) return sampleOnlyLevel(s, texture, u, v);
     if (isAnisotropic(s)) return sampleAnisotropicImplicit(s, texture, u, v);
     return sampleIsotropicBy(gradientsOf(u, v), 0.0f, s, texture, u, v);
 }
 
 float4 sampleBias(const sampler2D& s, Float u, Float v, Float bias)
 {
-    return sampleBy(gradientsOf(u, v), bias, s, u, v);
+    return sampleBy([&] { return gradientsOf(u, v); }, bias, s, u, v);
 }
 
 float4 sampleGradients(const sampler2D& s, Float u, Float v, const float2& dx, const float2& dy)
 {
-    return sampleBy({dx, dy}, 0.0f, s, u, v);
+    const auto given = [&] {
+        countNoDerivatives();
+        return Gradients{dx, dy};
+    };
+    return sampleBy(given, 0.0f, s, u, v);
 }
 
 float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod)
 {
     const Texture& texture = textureOf(s);
     if (isConstant(s, texture)) return sampleConstant(s, texture);
-    if (!usesMipLevels(s, texture)) return sampleFinestCounted(s, texture, u, v);
+    if (!usesMipLevels(s, texture)) return sampleOnlyLevel(s, texture, u, v);
+    countNoDerivatives();
     return sampleIsotropic(s, texture, u, v, lod + limitBias(s, 0.0f), 0);
 }
 

@@ -29,6 +29,7 @@ std::vector<Row> rows(const Usage& usage)
     const Statistics& s = usage.statistics;
     return {
         {"passes (draws)", s.draws, ""},
+        {"passes left out", static_cast<std::uint64_t>(usage.passesLeftOut), "their light does not reach the object"},
         {"vertices shaded", s.verticesShaded, ""},
         {"triangles submitted", s.trianglesSubmitted, ""},
         {"  culled, facing away", s.culledFacing, ""},
@@ -55,6 +56,7 @@ std::vector<Row> rows(const Usage& usage)
         {"  second mip level left out", s.fetches.secondLevelSkipped, "the level of detail was a whole number, or 0"},
         {"  magnified, finest level only", s.fetches.magnified, ""},
         {"  constant textures, no fetch", s.fetches.constant, ""},
+        {"  no derivatives taken", s.fetches.noDerivatives, "no level of detail to choose, or one that is given"},
         {"mip levels built", static_cast<std::uint64_t>(usage.levelsBuilt), "of " + std::to_string(usage.levelsWhole)},
     };
 }

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "commands.h"
+#include "leave_out.h"
 
 namespace {
 
@@ -131,6 +132,10 @@ Expected<void> benchWith(const CLI::App& command, const BenchOptions& options, P
 
 int main(int argc, char** argv)
 {
+    if (const Expected<void> checked = leavesOut::checkGeneric(leavesOut::generic()); !checked) {
+        std::fprintf(stderr, "relief: %s\n", checked.error().message.c_str());
+        return 2;
+    }
     CLI::App app("Relief: a software rasterizer that one can read, step through and trust.", "relief");
     app.require_subcommand(0, 1);
     Expected<void> result;

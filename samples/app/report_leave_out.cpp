@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "cost.h"
+#include "leave_out.h"
 #include "report.h"
 #include "usage.h"
 
@@ -11,22 +12,7 @@ namespace relief::samples {
 
 namespace {
 
-// The names of engine/leave_out.h, and what putting one back means.
-struct LeftOut
-{
-    const char* name;
-    const char* putBack;
-};
-constexpr LeftOut kLeftOut[] = {
-    {"constants", "textures of one texel are fetched from"},
-    {"alpha", "alpha is filtered where it is 1 everywhere"},
-    {"logarithms", "the level of detail is worked out where a block is magnified"},
-    {"coarserLevel", "the second mip level is fetched where its part is 0"},
-    {"planes", "planes without weight are fetched (triplanar)"},
-    {"clipping", "every triangle goes through the clipper"},
-    {"tiles", "tiles without triangles are drawn in tile memory"},
-    {"hidden", "hidden pixels are shaded"},
-};
+using leavesOut::LeftOut;
 
 // A stage of each kind: depth, filters, detail textures, three objects and lights, two passes, three planes, one plane.
 constexpr const char* kSwitchedStages[] = {"0.03", "0.04", "1.15", "1.25", "2.06", "3.05", "4.07", "4.11"};
@@ -36,7 +22,7 @@ struct Switched
     std::string stage, title;
     double ordinary = 0.0;        // instructions per fragment of a build without switches
     double asIs = 0.0;            // of the build with switches, nothing put back
-    std::vector<double> putBack;  // one for each of kLeftOut
+    std::vector<double> putBack;  // one for each of leavesOut::kAll
     double all = 0.0;
 };
 
@@ -79,20 +65,21 @@ std::string share(std::uint64_t part, std::uint64_t whole)
 std::string countsTable(const std::vector<Counted>& all)
 {
     std::string table =
-        "| stage | draws | components not used | triangles not clipped | tiles not touched | hidden, not shaded | "
-        "samples | no second level | magnified | constant | mip levels not built |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|\n";
+        "| stage | draws | passes left out | components not used | triangles not clipped | tiles not touched | hidden, "
+        "not shaded | samples | no derivatives | no second level | magnified | constant | mip levels not built |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Counted& c : all) {
         const Statistics& s = c.usage.statistics;
         const std::uint64_t samples = samplesOf(s.fetches);
         table += "| " + c.stage->id + " " + c.stage->title + " | " + std::to_string(s.draws) + " | " +
+                 std::to_string(c.usage.passesLeftOut) + " | " +
                  std::to_string(c.usage.componentsDeclared - c.usage.componentsUsed) + " of " +
                  std::to_string(c.usage.componentsDeclared) + " | " +
                  share(s.trianglesSubmitted - s.trianglesClipped, s.trianglesSubmitted) + " | " +
                  share(s.tiles - s.tilesTouched, s.tiles) + " | " +
                  share(s.pixelsHidden, s.pixelsHidden + s.pixelsShaded) + " | " + std::to_string(samples) + " | " +
-                 share(s.fetches.secondLevelSkipped, samples) + " | " + share(s.fetches.magnified, samples) + " | " +
-                 share(s.fetches.constant, samples) + " | " +
+                 share(s.fetches.noDerivatives, samples) + " | " + share(s.fetches.secondLevelSkipped, samples) +
+                 " | " + share(s.fetches.magnified, samples) + " | " + share(s.fetches.constant, samples) + " | " +
                  std::to_string(c.usage.levelsWhole - c.usage.levelsBuilt) + " of " +
                  std::to_string(c.usage.levelsWhole) + " |\n";
     }
@@ -102,17 +89,19 @@ std::string countsTable(const std::vector<Counted>& all)
 std::string countsCsv(const std::vector<Counted>& all)
 {
     std::string lines =
-        "stage,draws,components,components_used,triangles,triangles_clipped,tiles,tiles_touched,pixels_shaded,"
-        "pixels_hidden,samples,second_level_skipped,magnified,constant,levels,levels_built\n";
+        "stage,draws,passes_left_out,components,components_used,triangles,triangles_clipped,tiles,tiles_touched,"
+        "pixels_shaded,pixels_hidden,samples,no_derivatives,second_level_skipped,magnified,constant,levels,"
+        "levels_built\n";
     for (const Counted& c : all) {
         const Statistics& s = c.usage.statistics;
         lines += c.stage->id;
         for (const std::uint64_t n :
-             {s.draws, static_cast<std::uint64_t>(c.usage.componentsDeclared),
+             {s.draws, static_cast<std::uint64_t>(c.usage.passesLeftOut),
+              static_cast<std::uint64_t>(c.usage.componentsDeclared),
               static_cast<std::uint64_t>(c.usage.componentsUsed), s.trianglesSubmitted, s.trianglesClipped, s.tiles,
-              s.tilesTouched, s.pixelsShaded, s.pixelsHidden, samplesOf(s.fetches), s.fetches.secondLevelSkipped,
-              s.fetches.magnified, s.fetches.constant, static_cast<std::uint64_t>(c.usage.levelsWhole),
-              static_cast<std::uint64_t>(c.usage.levelsBuilt)})
+              s.tilesTouched, s.pixelsShaded, s.pixelsHidden, samplesOf(s.fetches), s.fetches.noDerivatives,
+              s.fetches.secondLevelSkipped, s.fetches.magnified, s.fetches.constant,
+              static_cast<std::uint64_t>(c.usage.levelsWhole), static_cast<std::uint64_t>(c.usage.levelsBuilt)})
             lines += "," + std::to_string(n);
         lines += "\n";
     }
@@ -136,9 +125,9 @@ Expected<std::vector<Switched>> switchedStages(const ReportOptions& options)
             if (!n) result = tl::unexpected(n.error());
             return n.value_or(0.0);
         };
-        s.ordinary = count(options.countedProgram, "none");
-        s.asIs = count(options.switchableProgram, "none");
-        for (const LeftOut& left : kLeftOut) {
+        s.ordinary = count(options.countedProgram, "");
+        s.asIs = count(options.switchableProgram, "");
+        for (const LeftOut& left : leavesOut::kAll) {
             if (result) s.putBack.push_back(count(options.switchableProgram, left.name));
         }
         if (result) s.all = count(options.switchableProgram, "all");
@@ -151,7 +140,7 @@ Expected<std::vector<Switched>> switchedStages(const ReportOptions& options)
 std::string savingsTable(const std::vector<Switched>& all)
 {
     std::string head = "| stage | ordinary build | with switches |", rule = "|---|---|---|";
-    for (const LeftOut& left : kLeftOut) head += std::string(" ") + left.name + " |", rule += "---|";
+    for (const LeftOut& left : leavesOut::kAll) head += std::string(" ") + left.name + " |", rule += "---|";
     std::string table = head + " all |\n" + rule + "---|\n";
     for (const Switched& s : all) {
         const auto more = [&](double n) {
@@ -176,17 +165,28 @@ std::string savingsCsv(const std::vector<Switched>& all)
         };
         line("ordinary build", s.ordinary);
         line("nothing", s.asIs);
-        for (std::size_t i = 0; i < s.putBack.size(); ++i) line(kLeftOut[i].name, s.putBack[i]);
+        for (std::size_t i = 0; i < s.putBack.size(); ++i) line(leavesOut::kAll[i].name, s.putBack[i]);
         line("all", s.all);
     }
     return lines;
+}
+
+// The stages and the names, in the order of the bars.
+std::string plotSettings()
+{
+    std::string stages, names;
+    for (const char* const id : kSwitchedStages) stages += std::string(id) + " ";
+    for (const LeftOut& left : leavesOut::kAll) names += std::string(left.name) + " ";
+    return "stages=\"" + stages + "\"; names=\"" + names + "all\"";
 }
 
 std::string document(const std::vector<Counted>& counted, const std::vector<Switched>& switched,
                      const ReportOptions& options)
 {
     std::string names;
-    for (const LeftOut& left : kLeftOut) names += std::string("| ") + left.name + " | " + left.putBack + " |\n";
+    for (const LeftOut& left : leavesOut::kAll) {
+        names += std::string("| ") + left.name + " | " + left.putBack + " | `engine/" + left.decidedIn + "` |\n";
+    }
     std::string savings = "Not counted: `./relief report leave-out` builds the programs for it.\n";
     if (!switched.empty()) {
         savings =
@@ -195,18 +195,19 @@ std::string document(const std::vector<Counted>& counted, const std::vector<Swit
             "with nothing put back; and how many more it takes with one thing put back, and with all. A "
             "minus: looking whether a thing can be left out costs a little where it cannot. The "
             "pictures are the same to the last bit: the tests named generic.* see to that for every stage.\n\n" +
-            savingsTable(switched) + "\n| put back | which means |\n|---|---|\n" + names +
+            savingsTable(switched) + "\n| put back | which means | decided in |\n|---|---|---|\n" + names +
             "\n![What leaving out saves](leave-out.svg)\n";
     }
     return reportHead("What was left out", options) + "\nDrawn at " + options.size + ".\n\n## What it saved\n\n" +
            savings +
            "\nWhat a shader itself leaves out is in [E-30](error/E-30.md): features removed, skipped by a branch, or "
-           "fed "
-           "a neutral input.\n\n## What each stage did not need\n\nCounted while it ran, as `./relief explain STAGE` "
-           "shows it: interpolated components that no pixel depends on (their programs are the tutorials'); triangles "
-           "that needed no clipping; tiles that no triangle touches; covered pixels that failed the depth test before "
-           "any shading; texture samples whose second mip level has no part, that are magnified, or that are from a "
-           "texture of one texel; mip levels that nothing asked for.\n\n" +
+           "fed a neutral input.\n\n## What each stage did not need\n\nCounted while it ran, as `./relief explain "
+           "STAGE` shows it: additive passes whose light does not reach the object (the lamps of 2.06 and 3.05 have no "
+           "range, so all of their passes are drawn); interpolated components that no pixel depends on (their programs "
+           "are the tutorials'); triangles that needed no clipping; tiles that no triangle touches; covered pixels "
+           "that failed the depth test before any shading; texture samples that took no derivatives, having no mip "
+           "level to choose, whose second mip level has no part, that are magnified, or that are from a texture of one "
+           "texel; mip levels that nothing asked for.\n\n" +
            countsTable(counted);
 }
 
@@ -232,7 +233,7 @@ Expected<void> reportLeaveOut(const ReportOptions& options)
          {writeReport(options, "leave-out.csv", countsCsv(*counted)),
           counts ? writeReport(options, "leave-out-instructions.csv", savingsCsv(switched)) : Expected<void>(),
           writeReport(options, "leave-out.md", document(*counted, switched, options)),
-          counts ? plotReport(options, "leave-out", "leave-out", "") : Expected<void>()}) {
+          counts ? plotReport(options, "leave-out", "leave-out", plotSettings()) : Expected<void>()}) {
         if (!written) return written;
     }
     std::printf("%s/leave-out.md and .csv\n", options.output.c_str());

@@ -29,6 +29,7 @@ Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads)
     Usage usage;
     usage.statistics = frame.run();
     countLevels(*stage.inputs, *stage.log, usage);
+    usage.passesLeftOut = stage.log->passesLeftOut;
     for (int draw = 0; draw < frame.drawCount(); ++draw) {
         usage.componentsDeclared += frame.componentCount(draw);
         for (int c = 0; c < frame.componentCount(draw); ++c) usage.componentsUsed += frame.dependsOn(draw, c) ? 1 : 0;

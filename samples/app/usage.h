@@ -16,6 +16,9 @@ struct Usage
     // Mip levels that exist in memory and that would, if every texture had its whole chain: of the stage's inputs and
     // of the textures that it made.
     int levelsBuilt = 0, levelsWhole = 0;
+
+    // Additive passes that were not drawn, because their light does not reach the object.
+    int passesLeftOut = 0;
 };
 
 Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads);

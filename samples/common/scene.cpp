@@ -116,6 +116,7 @@ void SceneLog::clear()
     }
     drawn.clear();
     notes.clear();
+    passesLeftOut = 0;
     kept.clear();
     textures.clear();
 }
@@ -197,6 +198,7 @@ void Scene::showTangents(const TangentSpaceVisualizer& visualizer) const
 
 void Scene::leftOut(const std::string& name, const Object& object) const
 {
+    ++log.passesLeftOut;
     note("pass left out: " + name + " does not reach the " + object.mesh->name);
 }
 

@@ -86,6 +86,7 @@ struct SceneLog
     };
     std::vector<Drawn> drawn;
     std::vector<std::string> notes;  // what was left out, and what was measured; for explain
+    int passesLeftOut = 0;           // by Scene::reaches
     std::deque<Mesh> kept;           // meshes that the scene made
 
     // Meshes that came without uv or tangents, with them; made when a program first reads any.

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "golden_stage.h"
+#include "leave_out.h"
 
 namespace {
 
@@ -68,8 +69,10 @@ int main(int argc, char** argv)
         std::fprintf(stderr, "usage: check_stage golden|hash STAGE\n");
         return 2;
     }
+    const Expected<void> generic = leavesOut::checkGeneric(leavesOut::generic());
     const Expected<const Stage*> stage = findStage(argv[2]);
-    const Expected<void> result = !stage             ? Expected<void>(tl::unexpected(stage.error()))
+    const Expected<void> result = !generic           ? generic
+                                  : !stage           ? Expected<void>(tl::unexpected(stage.error()))
                                   : what == "golden" ? checkPicture(**stage)
                                                      : checkHash(**stage);
     if (result) return 0;
