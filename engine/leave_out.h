@@ -13,15 +13,17 @@
 namespace relief::leavesOut {
 
 // Of each its name, the file where it is decided, and what putting it back means.
-#define RELIEF_LEAVES_OUT(each)                                                                                     \
-    each(constants, "texture/sampler.cpp", "textures of one texel are fetched from")                                \
-        each(alpha, "texture/filter.h", "alpha is filtered where it is 1 everywhere")                               \
-            each(logarithms, "texture/sampler.cpp", "the level of detail is worked out where a block is magnified") \
-                each(coarserLevel, "texture/filter.h", "the second mip level is fetched where its part is 0")       \
-                    each(planes, "texture/sampler.cpp", "planes without weight are fetched (triplanar)")            \
-                        each(clipping, "pipeline/setup.cpp", "every triangle goes through the clipper")             \
-                            each(tiles, "pipeline/frame.cpp", "tiles without triangles are drawn in tile memory")   \
-                                each(hidden, "pipeline/draw.h", "hidden pixels are shaded")
+// clang-format off
+#define RELIEF_LEAVES_OUT(each)                                                                             \
+    each(constants, "texture/sampler.cpp", "textures of one texel are fetched from")                        \
+    each(alpha, "texture/filter.h", "alpha is filtered where it is 1 everywhere")                           \
+    each(logarithms, "texture/sampler.cpp", "the level of detail is worked out where a block is magnified") \
+    each(coarserLevel, "texture/filter.h", "the second mip level is fetched where its part is 0")           \
+    each(planes, "texture/sampler.cpp", "planes without weight are fetched (triplanar)")                    \
+    each(clipping, "pipeline/setup.cpp", "every triangle goes through the clipper")                         \
+    each(tiles, "pipeline/frame.cpp", "tiles without triangles are drawn in tile memory")                   \
+    each(hidden, "pipeline/draw.h", "hidden pixels are shaded")
+// clang-format on
 
 struct LeftOut
 {
