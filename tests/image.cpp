@@ -289,6 +289,18 @@ TEST_CASE("image: a TGA that is too short for the size in its header is refused 
     CHECK(contains(errorOf(folder.write("d.tga", runs)), "is truncated (25 bytes, but 3x43 takes at least 26)"));
 }
 
+TEST_CASE("image: an HDR that ends within a run-length encoded row is an error, and not a run of nothing for ever")
+{
+    const TemporaryFolder folder;
+    const std::string row = {2, 2, 0, 64};  // 64 pixels, run-length encoded
+    const std::string runs = {'\xc0', 9, '\xc0', 9, '\xc0', 9, '\xc0', '\x80'};
+    REQUIRE(readImage(folder.write("a.hdr", hdr(row + runs, 64))).has_value());
+    for (std::size_t length = 0; length < runs.size(); ++length) {
+        CAPTURE(length);
+        CHECK(contains(errorOf(folder.write("a.hdr", hdr(row + runs.substr(0, length), 64))), "is truncated"));
+    }
+}
+
 TEST_CASE("image: sizes are checked in the header")
 {
     const TemporaryFolder folder;

@@ -58,7 +58,11 @@ int readSome(void* user, char* data, int size)
     source.position += given;
     const bool tooFew = data == source.smallBuffer ? given == 0 : given < wanted;
     source.truncated = source.truncated || tooFew;
-    return static_cast<int>(given);
+    if (given > 0 || data != source.smallBuffer) return static_cast<int>(given);
+    // stb would go on with zeros. To its HDR decoder a zero is a run of no pixels, and it would wait for the others for
+    // ever; with line ends, which end a header too, it comes to an end.
+    std::memset(data, '\n', wanted);
+    return size;
 }
 
 // A damaged header can ask to skip past either end.
