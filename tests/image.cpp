@@ -355,6 +355,16 @@ TEST_CASE("image: an empty chunk of compressed data before the full one changes 
     CHECK(std::get<Image8>(*image).pixels == pixels);
 }
 
+// What stb is fed beyond the end must not make the table longer than it can be: the sanitizers would see that.
+TEST_CASE("image: a JPEG that ends among a Huffman table's counts")
+{
+    const TemporaryFolder folder;
+    const std::string jpeg = jpeg8x8();
+    const std::string counts = {1, 0, 0, 0, 1, 1, 1, '\xd9'};
+    const std::string file = jpeg.substr(0, jpeg.find("\xff\xc4") + 5) + counts;
+    CHECK(contains(errorOf(folder.write("a.jpg", file)), "copy or export it again"));
+}
+
 TEST_CASE("image: a JPEG whose Huffman table is too long")
 {
     const TemporaryFolder folder;

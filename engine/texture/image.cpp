@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #define STBI_NO_STDIO
 #include <stb/stb_image.h>
@@ -43,6 +44,7 @@ std::string toString(Size size)
 struct Source
 {
     std::span<const std::uint8_t> bytes;
+    bool isHdr = false;
     std::size_t position = 0;
     const char* smallBuffer = nullptr;
     bool truncated = false;
@@ -58,8 +60,8 @@ int readSome(void* user, char* data, int size)
     source.position += given;
     const bool tooFew = data == source.smallBuffer ? given == 0 : given < wanted;
     source.truncated = source.truncated || tooFew;
-    if (given > 0 || data != source.smallBuffer) return static_cast<int>(given);
-    // stb would go on with zeros. To its HDR decoder a zero is a run of no pixels, and it would wait for the others for
+    if (given > 0 || data != source.smallBuffer || !source.isHdr) return static_cast<int>(given);
+    // stb goes on with zeros. To its HDR decoder a zero is a run of no pixels, and it would wait for the others for
     // ever; with line ends, which end a header too, it comes to an end.
     std::memset(data, '\n', wanted);
     return size;
@@ -110,7 +112,7 @@ std::string_view lastReason()
 template <class Channel, class Load>
 Expected<ImageFile> decode(const std::string& name, const Bytes& bytes, Size size, Load load)
 {
-    Source source{.bytes = bytes};
+    Source source{.bytes = bytes, .isHdr = std::is_same_v<Channel, float>};
     int width = 0;
     int height = 0;
     int channelsInFile = 0;
