@@ -88,9 +88,9 @@ Experiment zDecode(Effort effort)
     e.id = "E-01";
     e.title = "The z of a stored normal";
     e.question =
-        "A normal map stores x and y; z follows from the length 1. The tutorials offer a square root, 1 - (x² + y²) /"
-        " 2, and simply 1. How wrong are the two short cuts, and are they faster? Their result is not of length 1, so"
-        " a shader that needs a unit vector pays for a normalize() that the root does not need.";
+        "A normal map stores x and y; z follows from the length 1. The tutorials offer a square root, 1 - (x² + y²) / "
+        "2, and simply 1. How wrong are the two short cuts, and are they faster? Their result is not of length 1, so a "
+        "shader that needs a unit vector pays for a normalize() that the root does not need.";
     e.item = "decode";
     e.unit = "degrees";
     const auto in = randomColumns({{-0.7, 0.7}, {-0.7, 0.7}});

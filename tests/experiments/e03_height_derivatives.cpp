@@ -269,9 +269,9 @@ Experiment heightDerivatives(Effort effort)
     e.title = "Slopes from a height map";
     e.question =
         "A bump map holds heights; a fragment program takes differences. Between which samples, how far apart, and "
-        "from how many bits? A short distance magnifies the steps of 8 bits, a long one flattens the bumps: the error"
-        " has a minimum between. The map is a sine of 64 texels, its steepest slope 45 degrees; errors are those of "
-        "the normal, all over the map, between texels too.";
+        "from how many bits? A short distance magnifies the steps of 8 bits, a long one flattens the bumps: the error "
+        "has a minimum between. The map is a sine of 64 texels, its steepest slope 45 degrees; errors are those of the "
+        "normal, all over the map, between texels too.";
     e.item = "fragment";
     e.unit = "degrees";
     for (const int bits : {8, 16, 0}) {

@@ -132,11 +132,11 @@ Experiment triplanarMethods(Effort effort)
     e.id = "E-07";
     e.title = "Triplanar normals";
     e.question =
-        "A triplanar shader has a normal map's bump and the surface's normal, and no tangents. How far is each way of"
-        " putting them together from what a bump could mean: the surface moved along the projection (the error "
-        "shown), moved along its own normal, or the map turned onto it without any stretch? Surfaces tilted by 0 to "
-        "54.7 degrees, the most that a plane has to serve; slopes 0.1, 0.5 and 1. "
-        "[4.13](../../triplanar/13_all_methods.md) draws the methods, and their errors in false colours, on spheres.";
+        "A triplanar shader has a normal map's bump and the surface's normal, and no tangents. How far is each way of "
+        "putting them together from what a bump could mean: the surface moved along the projection (the error shown), "
+        "moved along its own normal, or the map turned onto it without any stretch? Surfaces tilted by 0 to 54.7 "
+        "degrees, the most that a plane has to serve; slopes 0.1, 0.5 and 1. [4.13](../../triplanar/13_all_methods.md) "
+        "draws the methods, and their errors in false colours, on spheres.";
     e.item = "fragment";
     e.unit = "degrees";
     std::vector<ColumnRange> ranges(3, {-1.0, 1.0});

@@ -168,8 +168,8 @@ Experiment tangentFrames(Effort)
     e.title = "Tangent frames between vertices";
     e.question =
         "Along an edge the interpolated tangent and normal are shorter than 1 and not at a right angle. A shader can "
-        "interpolate the binormal too, make it from the two, or clean the frame up first. A baked normal map is right"
-        " only in the baker's frame: the error is that for a baker with a binormal per vertex; the other columns are "
+        "interpolate the binormal too, make it from the two, or clean the frame up first. A baked normal map is right "
+        "only in the baker's frame: the error is that for a baker with a binormal per vertex; the other columns are "
         "for bakers of the other two kinds.";
     e.item = "fragment";
     e.unit = "degrees";

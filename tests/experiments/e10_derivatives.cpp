@@ -172,10 +172,10 @@ Experiment derivatives(Effort effort)
     e.id = "E-10";
     e.title = "Derivatives of a texture coordinate";
     e.question =
-        "A texture's level of detail comes from how much the coordinate changes from pixel to pixel. The engine, like"
-        " graphics hardware, takes differences within quads of 2x2 pixels: fine ones by row and column, or coarse "
-        "ones, one pair for the quad. The coordinate's plane equations would give the derivative at the pixel's own "
-        "centre. How far off are the differences on a ground that runs to the horizon, and what does each cost?";
+        "A texture's level of detail comes from how much the coordinate changes from pixel to pixel. The engine, like "
+        "graphics hardware, takes differences within quads of 2x2 pixels: fine ones by row and column, or coarse ones, "
+        "one pair for the quad. The coordinate's plane equations would give the derivative at the pixel's own centre. "
+        "How far off are the differences on a ground that runs to the horizon, and what does each cost?";
     e.item = "quad";
     e.unit = "levels";
     auto pixels = std::make_shared<Columns>(2);

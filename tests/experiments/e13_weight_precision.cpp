@@ -176,8 +176,8 @@ Experiment weightPrecision(Effort effort)
     e.id = "E-13";
     e.title = "Bits of a bilinear weight";
     e.question =
-        "A bilinear fetch mixes four texels by where the coordinate lies between them. Graphics hardware keeps 8 bits"
-        " of that place, Vulkan asks for no more than 4, this engine keeps 12. What does it show in 8-bit codes, and "
+        "A bilinear fetch mixes four texels by where the coordinate lies between them. Graphics hardware keeps 8 bits "
+        "of that place, Vulkan asks for no more than 4, this engine keeps 12. What does it show in 8-bit codes, and "
         "are fewer bits faster? With 8 or less, two channels can share a multiplication.";
     e.item = "fetch";
     e.unit = "codes of 255";

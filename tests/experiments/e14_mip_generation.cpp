@@ -171,8 +171,8 @@ Experiment mipGeneration(Effort effort)
     e.id = "E-14";
     e.title = "Making mip levels";
     e.question =
-        "A coarser texel is the mean of those that it covers: of linear light, not of sRGB codes. Of normals the mean"
-        " is shorter than 1, and making it unit length again is usual. How wrong do the levels of checkers and noise "
+        "A coarser texel is the mean of those that it covers: of linear light, not of sRGB codes. Of normals the mean "
+        "is shorter than 1, and making it unit length again is usual. How wrong do the levels of checkers and noise "
         "become in other ways than the engine's, which decodes to 16 bits once, and what does a texel cost to make? "
         "For normals, an error is one of Lambert's brightness.";
     e.item = "texel";

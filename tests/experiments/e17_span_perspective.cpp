@@ -197,9 +197,9 @@ Experiment spanPerspective(Effort)
     e.title = "Perspective at every k-th pixel";
     e.question =
         "A texture coordinate is a quotient on screen, so each pixel needs a division. Games of the nineties divided "
-        "at every 8th or 16th pixel of a row and drew straight lines between. How many texels is that off on a row of"
-        " 640 pixels and 256 texels whose far end is 10 times as far away as the near one, and is it still faster "
-        "when a processor divides for a whole vector of pixels at once?";
+        "at every 8th or 16th pixel of a row and drew straight lines between. How many texels is that off on a row of "
+        "640 pixels and 256 texels whose far end is 10 times as far away as the near one, and is it still faster when "
+        "a processor divides for a whole vector of pixels at once?";
     e.item = "pixel";
     e.unit = "texels";
     const auto timed = [](int k) -> Work {

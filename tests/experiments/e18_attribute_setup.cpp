@@ -223,9 +223,9 @@ Experiment attributeSetup(Effort effort)
     e.question =
         "u/w, v/w and 1/w are planes over the screen, and many renderers store each as three floats. For a triangle "
         "near pixel (3800, 2100) such a plane, taken from the screen's corner, is the small difference of large "
-        "numbers; taken from a corner of the triangle it is not. The engine weights the corners by exact integer edge"
-        " values instead. How far is u, in widths of the texture, off where w changes by 10000 within a triangle of "
-        "2, 16 and 512 pixels, and what does a pixel cost, with two components and the setup? Only rows of one size "
+        "numbers; taken from a corner of the triangle it is not. The engine weights the corners by exact integer edge "
+        "values instead. How far is u, in widths of the texture, off where w changes by 10000 within a triangle of 2, "
+        "16 and 512 pixels, and what does a pixel cost, with two components and the setup? Only rows of one size "
         "compare.";
     e.item = "covered pixel";
     e.unit = "texture widths";

@@ -152,11 +152,11 @@ Experiment lightingModels(Effort effort)
     e.id = "E-22";
     e.title = "Lighting models";
     e.question =
-        "Unity's lighting model adds small numbers to its denominators and leaves out two square roots; the exact "
-        "form of the same model does not. The older models stand beside them, with the exponent whose highlight is as"
-        " wide. Errors are those of a picture in which 1 is white, over all directions of light and viewer and all "
-        "smoothnesses, against the microfacet model in doubles. Of the reference values, the shares of light at N.V ="
-        " 0.1 are from a quadrature coarser than the one here, and differ in the third digit.";
+        "Unity's lighting model adds small numbers to its denominators and leaves out two square roots; the exact form "
+        "of the same model does not. The older models stand beside them, with the exponent whose highlight is as wide. "
+        "Errors are those of a picture in which 1 is white, over all directions of light and viewer and all "
+        "smoothnesses, against the microfacet model in doubles. Of the reference values, the shares of light at N.V = "
+        "0.1 are from a quadrature coarser than the one here, and differ in the third digit.";
     e.item = "light and fragment";
     e.unit = "codes of 255";
     const auto in = randomColumns({{-0.65, 0.65}, {-0.65, 0.65}, {-0.95, 0.95}, {0.0, 1.0}});

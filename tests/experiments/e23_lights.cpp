@@ -246,8 +246,8 @@ Experiment lights(Effort)
     e.id = "E-23";
     e.title = "Lights: where and how they are added up";
     e.question =
-        "A light computed at vertices costs little, and is interpolated; on large triangles its highlight is missing."
-        " Several lights can be summed up in one shader, or each in a pass of its own that is added to the target, "
+        "A light computed at vertices costs little, and is interpolated; on large triangles its highlight is missing. "
+        "Several lights can be summed up in one shader, or each in a pass of its own that is added to the target, "
         "which rounds every sum. How many codes of 8 bits does each cost, on a plane of 128 x 128 pixels?";
     e.item = "pixel";
     e.unit = "8-bit codes";

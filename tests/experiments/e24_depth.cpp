@@ -150,8 +150,8 @@ Experiment depth(Effort effort)
     e.title = "What a depth buffer stores";
     e.question =
         "z/w uses up nearly all of its range close to the camera. How far apart must two surfaces be to be told from "
-        "each other, as a part of their distance, with 16 or 24 bits, a float, a float of reversed z/w, of 1/w, or of"
-        " the distance itself? The error is that gap by storage alone; the pairs, 1e-5 of their distance apart, are "
+        "each other, as a part of their distance, with 16 or 24 bits, a float, a float of reversed z/w, of 1/w, or of "
+        "the distance itself? The error is that gap by storage alone; the pairs, 1e-5 of their distance apart, are "
         "projected and compared in floats as a pipeline does it. The engine stores floats, standard or reversed.";
     e.item = "fragment";
     e.unit = "gap / distance";

@@ -205,8 +205,8 @@ Experiment halfInterpolants(Effort effort)
     e.title = "Interpolants as halves";
     e.question =
         "A half has 11 significant bits and takes half the memory of a float. A renderer that keeps each fragment's "
-        "texture coordinate and normal between two passes could store them so. How many texels of a 1024 texture does"
-        " that move a fragment, and its normal how far, and what does reading them back cost? Halves are unpacked in "
+        "texture coordinate and normal between two passes could store them so. How many texels of a 1024 texture does "
+        "that move a fragment, and its normal how far, and what does reading them back cost? Halves are unpacked in "
         "integers here, since not every processor has an instruction for it; beyond 65504 there are none.";
     e.item = "fragment";
     e.unit = "texels";

@@ -157,9 +157,9 @@ Experiment leaveOut(Effort)
     e.id = "E-30";
     e.title = "A feature that is not used";
     e.question =
-        "A material has a normal map, a detail texture, a highlight and a rim; a scene does without some of them. One"
-        " can remove their code when compiling, branch around it by a uniform, or leave it in and feed it what should"
-        " change nothing: a flat map, a middle grey, black. What does each cost, and is the picture the same? The "
+        "A material has a normal map, a detail texture, a highlight and a rim; a scene does without some of them. One "
+        "can remove their code when compiling, branch around it by a uniform, or leave it in and feed it what should "
+        "change nothing: a flat map, a middle grey, black. What does each cost, and is the picture the same? The "
         "errors are those against the branch.";
     e.item = "fragment";
     e.unit = "codes of 255";

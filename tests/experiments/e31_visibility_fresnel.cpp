@@ -89,9 +89,9 @@ Experiment visibilityAndFresnel(Effort effort)
     e.title = "Visibility and Fresnel";
     e.question =
         "A highlight is the product of three factors. Visibility: how much of the micro-facets is hidden by others, "
-        "Smith's form with its two square roots, and Unity's without. Fresnel: how much glass (index 1.5) reflects, "
-        "by the exact formula and by Schlick's fifth power, or a fourth. Errors in percent: of the visibility, and of"
-        " the light for Fresnel.";
+        "Smith's form with its two square roots, and Unity's without. Fresnel: how much glass (index 1.5) reflects, by "
+        "the exact formula and by Schlick's fifth power, or a fourth. Errors in percent: of the visibility, and of the "
+        "light for Fresnel.";
     e.item = "evaluation";
     e.unit = "percent";
     e.rivals = Rivals::ofOneName;

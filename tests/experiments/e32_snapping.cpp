@@ -138,10 +138,10 @@ Experiment snapping(Effort effort)
     e.id = "E-32";
     e.title = "Snapping corners";
     e.question =
-        "Corners are rounded to fractions of a pixel before anything is drawn, so that coverage is exact integers. "
-        "How far do they move with 4, 8 (Direct3D's and the engine's) and 12 bits of fraction, what does it do to the"
-        " area of small triangles, and does a slow drift still look like one? Errors on a target of 1024 pixels, "
-        "against doubles; unsnapped means floats, which are coarse themselves far from the origin.";
+        "Corners are rounded to fractions of a pixel before anything is drawn, so that coverage is exact integers. How "
+        "far do they move with 4, 8 (Direct3D's and the engine's) and 12 bits of fraction, what does it do to the area "
+        "of small triangles, and does a slow drift still look like one? Errors on a target of 1024 pixels, against "
+        "doubles; unsnapped means floats, which are coarse themselves far from the origin.";
     e.item = "corner";
     e.unit = "pixels";
     const auto in = randomColumns({{0.0, 1024.0}, {0.0, 1024.0}});
