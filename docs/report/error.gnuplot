@@ -1,6 +1,6 @@
 # The variants of an experiment: error against time, from ID.csv in the current folder. `relief report error` runs it,
-# with id, unit, item, names ("'one' 'another'"), front ("0 2": the undominated rows by error) and joined (1: by a line)
-# set. What is exact has no place on a logarithmic axis: it stands a decade left of the smallest error.
+# with id, unit, item, names ("'one, 8 bits' 'another, 8 bits'"), groups ("'one' 'another'"), front ("0 2": the
+# undominated rows by error) and joined (1: by a line) set. What is exact has no place on a logarithmic axis: it stands a decade left of the smallest error.
 set datafile separator ","
 set terminal svg size 960,540 font "sans,13" background "white"
 table = id.".csv"
@@ -33,11 +33,15 @@ set key outside right top font ",11"
 set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05
 set xlabel "RMS error in ".unit." (".gprintf("10^{%T}", smallest)." stands for exact)"
 set ylabel "ns per ".item
-# Of many variants only those of the front have a name.
-many = words(names) > 24
-isOnFront(r) = sum [k = 1:words(front)] (int(word(front, k)) + 1 == r)
-plot for [r = 1:words(names)] table using (many && !isOnFront(r) ? X[r] : NaN):(Y[r]) every ::0::0 \
-         with points linecolor "gray70" pointtype 7 pointsize 0.5 notitle, \
-     for [r = 1:words(names)] table using (!many || isOnFront(r) ? X[r] : NaN):(Y[r]) every ::0::0 \
-         with points linecolor r pointtype (4 + r % 10) pointsize 1.3 linewidth 2 \
-         title (!many || isOnFront(r) ? word(names, r) : "")
+# Many variants are told apart by their names alone, not by their parameters, and those that are not on the front are
+# small.
+of(group, front) = strcol("variant") eq group && column("on_front") == front ? shown(column("err_rms")) : NaN
+if (words(names) > 24) {
+    plot for [g = 1:words(groups)] table using (of(word(groups, g), 0)):(column("ns_min")) \
+             with points linecolor g pointtype 7 pointsize 0.4 notitle, \
+         for [g = 1:words(groups)] table using (of(word(groups, g), 1)):(column("ns_min")) \
+             with points linecolor g pointtype (4 + g % 10) pointsize 1.1 linewidth 2 title word(groups, g)
+} else {
+    plot for [r = 1:words(names)] table using (X[r]):(Y[r]) every ::0::0 \
+             with points linecolor r pointtype (4 + r % 10) pointsize 1.3 linewidth 2 title word(names, r)
+}

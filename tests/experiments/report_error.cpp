@@ -129,16 +129,20 @@ std::string csv(const Measured& m, const std::string& commit)
 // What docs/report/error.gnuplot asks for.
 std::string plotSettings(const Measured& m)
 {
-    std::string names, front;
+    std::string names, groups, front;
     std::vector<std::size_t> order(m.rows.all.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return m.rows.all[a].outcome.error.rms < m.rows.all[b].outcome.error.rms;
     });
     for (const std::size_t i : order) front += m.rows.all[i].isOnFront ? std::to_string(i) + " " : "";
-    for (const Row& row : m.rows.all) names += "'" + fullName(row) + "' ";
+    for (const Row& row : m.rows.all) {
+        names += "'" + fullName(row) + "' ";
+        const std::string group = "'" + row.name + "' ";
+        if (groups.find(group) == std::string::npos) groups += group;
+    }
     return "id=\"" + m.experiment.id + "\"; unit=\"" + m.experiment.unit + "\"; item=\"" + m.experiment.item +
-           "\"; names=\"" + names + "\"; front=\"" + front +
+           "\"; names=\"" + names + "\"; groups=\"" + groups + "\"; front=\"" + front +
            "\"; joined=" + (m.experiment.rivals == Rivals::all ? "1" : "0");
 }
 
