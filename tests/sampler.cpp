@@ -147,8 +147,8 @@ TEST_CASE("sampler: tiny negative coordinates stay within the texture (S-553)")
     for (int n = 0; n < 1 << 20; n += kLanes) {
         const Float u = asFloat((Int(static_cast<std::int32_t>(0x80000000u)) | (Int(n) + laneNumbers()) * 1021));
         const Float reduced = reduceRange(AddressMode::wrap, u);
-        const Int nearest = nearestPosition(AddressMode::wrap, reduced, 16383, 16383.0f);
-        const Int pair = pairPosition(AddressMode::wrap, reduced, 16383, 16383.0f) >> kSubtexelBits;
+        const Int nearest = nearestPosition(AddressMode::wrap, reduced, TextureSide(16383));
+        const Int pair = pairPosition(AddressMode::wrap, reduced, TextureSide(16383)) >> kSubtexelBits;
         outside += count((nearest < 1) | (nearest > 16384) | (pair < 0) | (pair > 16383));
     }
     measured("texels outside of the texture", outside, 0);
@@ -161,7 +161,7 @@ TEST_CASE("sampler: u = k / N is texel k, for every N and k that is not a power 
         for (int k = 0; k < n; ++k) {
             const Float u = static_cast<float>(k) / static_cast<float>(n);
             for (const AddressMode mode : kModes) {
-                const Int position = nearestPosition(mode, reduceRange(mode, u), n, static_cast<float>(n));
+                const Int position = nearestPosition(mode, reduceRange(mode, u), TextureSide(n));
                 wrong += position[0] != k + 1 ? 1 : 0;
             }
         }
@@ -176,14 +176,14 @@ TEST_CASE("sampler: a coordinate at a texel's centre gives exactly that texel, u
         for (int k = 0; k < n; ++k) {
             const Float u = (static_cast<float>(k) + 0.5f) / static_cast<float>(n);
             for (const AddressMode mode : kModes) {
-                const Int position = pairPosition(mode, reduceRange(mode, u), n, static_cast<float>(n));
+                const Int position = pairPosition(mode, reduceRange(mode, u), TextureSide(n));
                 wrong += position[0] != (k + 1) * kSubtexels ? 1 : 0;
             }
         }
     }
     for (int k = 0; k < 16384; ++k) {
         const Float u = (static_cast<float>(k) + 0.5f) / 16384.0f;
-        wrong += pairPosition(AddressMode::wrap, u, 16384, 16384.0f)[0] != (k + 1) * kSubtexels ? 1 : 0;
+        wrong += pairPosition(AddressMode::wrap, u, TextureSide(16384))[0] != (k + 1) * kSubtexels ? 1 : 0;
     }
     measured("positions off the centre", wrong, 0);
 

@@ -82,6 +82,12 @@ inline FloatVector max(FloatVector a, FloatVector b)
 {
     return (FloatVector)_mm256_max_ps(wrap(a), wrap(b));
 }
+// The larger of two numbers that are not negative, NaN where one of them is NaN: in the order of their bits NaN is the
+// largest.
+inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm256_max_epu32((__m256i)a, (__m256i)b);
+}
 inline IntVector min(IntVector a, IntVector b)
 {
     return (IntVector)_mm256_min_epi32(wrap(a), wrap(b));

@@ -90,6 +90,12 @@ inline FloatVector max(FloatVector a, FloatVector b)
 {
     return (FloatVector)_mm512_max_ps(wrap(a), wrap(b));
 }
+// The larger of two numbers that are not negative, NaN where one of them is NaN: in the order of their bits NaN is the
+// largest.
+inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm512_max_epu32((__m512i)a, (__m512i)b);
+}
 inline IntVector min(IntVector a, IntVector b)
 {
     return (IntVector)_mm512_min_epi32(wrap(a), wrap(b));

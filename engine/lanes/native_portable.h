@@ -77,6 +77,11 @@ inline FloatVector max(FloatVector a, FloatVector b)
 {
     return select(less(b, a), a, b);
 }
+// The larger of two numbers that are not negative, NaN where one of them is NaN.
+inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
+{
+    return select(equal(a, a), max(a, b), a);
+}
 inline IntVector min(IntVector a, IntVector b)
 {
     return select(less(a, b), a, b);

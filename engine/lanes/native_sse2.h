@@ -84,6 +84,11 @@ inline FloatVector max(FloatVector a, FloatVector b)
 {
     return (FloatVector)_mm_max_ps(wrap(a), wrap(b));
 }
+// The larger of two numbers that are not negative, NaN where one of them is NaN.
+inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm_or_ps(_mm_max_ps(wrap(a), wrap(b)), _mm_cmpunord_ps(wrap(a), wrap(b)));
+}
 inline IntVector min(IntVector a, IntVector b)
 {
     return select(less(a, b), a, b);

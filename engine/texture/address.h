@@ -7,7 +7,6 @@
 #pragma once
 
 #include "lanes/float.h"
-#include "texture/mip_chain.h"
 
 namespace relief {
 
@@ -33,6 +32,18 @@ inline constexpr int kSubtexelMask = kSubtexels - 1;
 // u = k/side in texel k.
 inline constexpr int kNearestBits = 8;
 
+// A texture's side along an axis, in texels and in the steps of positions. Both are exact, and at hand: a fetch need
+// not compute them.
+struct TextureSide
+{
+    explicit TextureSide(int side) : texels(side), subtexels(static_cast<float>(side) * static_cast<float>(kSubtexels))
+    {
+    }
+
+    int texels;
+    float subtexels;
+};
+
 // The coordinate brought into the range that the conversion to fixed point is safe for: one period where the texture
 // repeats, else all that differs. It does not depend on the level. NaN stays or becomes 0.
 [[gnu::always_inline]] inline Float reduceRange(AddressMode mode, Float u)
@@ -55,29 +66,30 @@ inline constexpr int kNearestBits = 8;
 // The position of the first of the two texels that a bilinear fetch lies between, and 1/4096 of the way to the second,
 // in one number: position * 4096 + fraction. Position is in 0..side for wrap and 1..side for clamp and mirror (the last
 // with fraction 0); in the border mode it can be outside.
-[[gnu::always_inline]] inline Int pairPosition(AddressMode mode, Float reduced, int side, float sideInFloat)
+[[gnu::always_inline]] inline Int pairPosition(AddressMode mode, Float reduced, const TextureSide& side)
 {
     // Half a texel back from the edge to the centre, one on for the frame.
-    const Float position =
-        reduced * (sideInFloat * static_cast<float>(kSubtexels)) + static_cast<float>(kSubtexels / 2);
+    const Float position = reduced * side.subtexels + static_cast<float>(kSubtexels / 2);
     const Float number = select(position == position, position, static_cast<float>(kSubtexels));
     const Int rounded = Int(native::roundToInt(number.value));
     if (mode == AddressMode::wrap || mode == AddressMode::border) return rounded;
-    const Int folded = mode == AddressMode::mirror ? min(rounded, (2 * side + 1) * kSubtexels - rounded) : rounded;
-    return clamp(folded, kSubtexels, side * kSubtexels);
+    const Int folded =
+        mode == AddressMode::mirror ? min(rounded, (2 * side.texels + 1) * kSubtexels - rounded) : rounded;
+    return clamp(folded, kSubtexels, side.texels * kSubtexels);
 }
 
 // The position of the nearest texel, in 1..side + 1 for wrap (the last is the frame's copy of the first texel), 1..side
 // for clamp and mirror; in the border mode it can be outside.
-inline Int nearestPosition(AddressMode mode, Float reduced, int side, float sideInFloat)
+inline Int nearestPosition(AddressMode mode, Float reduced, const TextureSide& side)
 {
     constexpr int one = 1 << kNearestBits;
-    const Float position = reduced * (sideInFloat * static_cast<float>(one)) + static_cast<float>(one);
+    const Float position =
+        reduced * (side.subtexels * (static_cast<float>(one) / kSubtexels)) + static_cast<float>(one);
     const Float number = select(position == position, position, static_cast<float>(one));
     const Int rounded = Int(native::roundToInt(number.value)) >> kNearestBits;
     if (mode == AddressMode::wrap || mode == AddressMode::border) return rounded;
-    const Int folded = mode == AddressMode::mirror ? min(rounded, 2 * side + 1 - rounded) : rounded;
-    return clamp(folded, 1, side);
+    const Int folded = mode == AddressMode::mirror ? min(rounded, 2 * side.texels + 1 - rounded) : rounded;
+    return clamp(folded, 1, side.texels);
 }
 
 }  // namespace relief

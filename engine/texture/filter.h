@@ -19,23 +19,44 @@ namespace relief {
 inline constexpr int kLodBits = 8;
 inline constexpr int kLodOne = 1 << kLodBits;
 
+// The address modes of both axes: any, as the sampler says, or the common ones, known while compiling. With these no
+// function below asks for the mode of an axis and level again.
+struct AnyModes
+{
+    explicit AnyModes(const sampler2D& s) : u(s.u), v(s.v) {}
+    AddressMode u, v;
+};
+struct Repeated
+{
+    explicit Repeated(const sampler2D&) {}
+    static constexpr AddressMode u = AddressMode::wrap, v = AddressMode::wrap;
+};
+
+inline bool isRepeated(const sampler2D& s)
+{
+    return s.u == Repeated::u && s.v == Repeated::v;
+}
+
+template <class Modes>
+constexpr bool hasBorder(const Modes& modes)  // of a sampler, too
+{
+    return modes.u == AddressMode::border || modes.v == AddressMode::border;
+}
+
 // Where to sample, after range reduction: the same for every level.
+template <class Modes>
 struct Place
 {
+    Place(const sampler2D& s, const Texture& of, Float toU, Float toV)
+        : modes(s), sampler(s), texture(of), u(reduceRange(modes.u, toU)), v(reduceRange(modes.v, toV))
+    {
+    }
+
+    Modes modes;
     const sampler2D& sampler;
     const Texture& texture;
     Float u, v;
 };
-
-inline Place placeOf(const sampler2D& s, const Texture& texture, Float u, Float v)
-{
-    return {s, texture, reduceRange(s.u, u), reduceRange(s.v, v)};
-}
-
-inline bool hasBorder(const sampler2D& s)
-{
-    return s.u == AddressMode::border || s.v == AddressMode::border;
-}
 
 // The lanes that results are wanted for. A block without any still gets some values.
 inline unsigned wantedLanes()
@@ -50,10 +71,11 @@ struct Pairs
     Int fx, fy;  // 0..kSubtexels - 1
 };
 
-[[gnu::always_inline]] inline Pairs pairsOn(const Place& place, const MipLevel& level)
+template <class Modes>
+[[gnu::always_inline]] inline Pairs pairsOn(const Place<Modes>& place, const MipLevel& level)
 {
-    const Int x = pairPosition(place.sampler.u, place.u, level.width(), level.widthInFloat());
-    const Int y = pairPosition(place.sampler.v, place.v, level.height(), level.heightInFloat());
+    const Int x = pairPosition(place.modes.u, place.u, level.sideU());
+    const Int y = pairPosition(place.modes.v, place.v, level.sideV());
     return {x >> kSubtexelBits, y >> kSubtexelBits, x & kSubtexelMask, y & kSubtexelMask};
 }
 
@@ -101,31 +123,32 @@ inline Int texelIndex(const MipLevel& level, Int x, Int y)
 }
 
 // A border has an alpha of its own.
-inline bool leavesOutAlpha(const Place& place, const MipLevel& level)
+template <class Modes>
+bool leavesOutAlpha(const Place<Modes>& place, const MipLevel& level)
 {
-    return leavesOut::alpha && level.isOpaque() && !hasBorder(place.sampler);
+    return leavesOut::alpha && level.isOpaque() && !hasBorder(place.modes);
 }
 
-template <class Fetch>
-[[gnu::always_inline]] inline float4 nearestOn(const Place& place, const MipLevel& level)
+template <class Fetch, class Modes>
+[[gnu::always_inline]] inline float4 nearestOn(const Place<Modes>& place, const MipLevel& level)
 {
-    const Int x = nearestPosition(place.sampler.u, place.u, level.width(), level.widthInFloat());
-    const Int y = nearestPosition(place.sampler.v, place.v, level.height(), level.heightInFloat());
-    if (hasBorder(place.sampler)) [[unlikely]]
+    const Int x = nearestPosition(place.modes.u, place.u, level.sideU());
+    const Int y = nearestPosition(place.modes.v, place.v, level.sideV());
+    if (hasBorder(place.modes)) [[unlikely]]
         return texelOrBorder<Fetch>(place.sampler, level, x, y);
     return Fetch::nearest(level, texelIndex(level, x, y));
 }
 
-template <class Fetch>
-[[gnu::always_inline]] inline float4 bilinearOn(const Place& place, const MipLevel& level, const Pairs& at)
+template <class Fetch, class Modes>
+[[gnu::always_inline]] inline float4 bilinearOn(const Place<Modes>& place, const MipLevel& level, const Pairs& at)
 {
-    if (hasBorder(place.sampler)) [[unlikely]]
+    if (hasBorder(place.modes)) [[unlikely]]
         return bilinearWithBorder<Fetch>(place.sampler, level, at);
     return Fetch::bilinear(level, texelIndex(level, at.x, at.y), at.fx, at.fy);
 }
 
-template <class Fetch>
-[[gnu::always_inline]] inline float4 sampleLevel(const Place& place, const MipLevel& level)
+template <class Fetch, class Modes>
+[[gnu::always_inline]] inline float4 sampleLevel(const Place<Modes>& place, const MipLevel& level)
 {
     if (place.sampler.filter == Filter::nearest) return nearestOn<Fetch>(place, level);
     const Pairs at = pairsOn(place, level);
@@ -137,9 +160,9 @@ template <class Fetch>
 
 // Both levels' texels are located before the first is fetched: the processor has something to do while the first
 // addresses are on their way through memory.
-template <class Fetch>
-[[gnu::always_inline]] inline float4 sampleBetween(const Place& place, const MipLevel& finer, const MipLevel& coarser,
-                                                   Float t)
+template <class Fetch, class Modes>
+[[gnu::always_inline]] inline float4 sampleBetween(const Place<Modes>& place, const MipLevel& finer,
+                                                   const MipLevel& coarser, Float t)
 {
     const Pairs onFiner = pairsOn(place, finer), onCoarser = pairsOn(place, coarser);
     const float4 a = bilinearOn<Fetch>(place, finer, onFiner);
@@ -149,8 +172,8 @@ template <class Fetch>
 
 // Level k for all lanes, and with the trilinear filter the part of level k + 1 that `fraction` (0..255) says; `lanes`
 // are those that the result is for.
-template <class Fetch>
-[[gnu::always_inline]] inline float4 sampleLevels(const Place& place, int k, Int fraction, unsigned lanes)
+template <class Fetch, class Modes>
+[[gnu::always_inline]] inline float4 sampleLevels(const Place<Modes>& place, int k, Int fraction, unsigned lanes)
 {
     const MipLevel& finer = place.texture.level(k);
     const bool hasOneLevel =
@@ -165,8 +188,8 @@ template <class Fetch>
 }
 
 // Every lane on its own level: one round per distinct level.
-template <class Fetch>
-[[gnu::noinline]] float4 sampleSeveralLevels(Place place, Int level, Int fraction)
+template <class Fetch, class Modes>
+[[gnu::noinline]] float4 sampleSeveralLevels(Place<Modes> place, Int level, Int fraction)
 {
     std::int32_t levels[kLanes];
     level.store(levels);
@@ -185,8 +208,8 @@ template <class Fetch>
 //
 // `guess` is the level that a caller expects, 0..levels - 1. It changes no result: where all lanes are on it, as they
 // mostly are, the processor predicts the branch and is at the texels before the logarithm in `lod` is done.
-template <class Fetch>
-[[gnu::always_inline]] inline float4 sampleMipLevels(const Place& place, Int lod, int guess)
+template <class Fetch, class Modes>
+[[gnu::always_inline]] inline float4 sampleMipLevels(const Place<Modes>& place, Int lod, int guess)
 {
     const bool trilinear = place.sampler.filter == Filter::trilinear;
     const Int level = (trilinear ? lod : lod + kLodOne / 2) >> kLodBits;

@@ -13,7 +13,7 @@ inline Float longestSquare(const float2& dX, const float2& dY)
 {
     const Float xx = dX.x * dX.x + dX.y * dX.y;
     const Float yy = dY.x * dY.x + dY.y * dY.y;
-    return select(isnan(xx), xx, Float(native::max(xx.value, yy.value)));  // native::max keeps a NaN on the right
+    return Float(native::maxOrNaN(xx.value, yy.value));
 }
 
 // log2 of the longer derivative's length: -infinity for zero, +infinity from lengths of 2^64 texels on.
@@ -23,11 +23,10 @@ inline Float isotropicLevel(const float2& dX, const float2& dY)
 }
 
 // The same for a caller that limits it to the levels of a texture, -16..15.99 of bias included: what is farther away is
-// only roughly right. NaN counts as +infinity.
+// only roughly right: 64 or more for infinity and NaN, whose sign may be set, and about -63 for zero.
 inline Float limitedIsotropicLevel(Float longestSquare)
 {
-    const Float limited = Float(native::min(longestSquare.value, Float(0x1p126f).value));  // not NaN
-    return 0.5f * detail::log2OfNormal(Float(native::max(limited.value, Float(0x1p-100f).value)));
+    return 0.5f * detail::log2OfNormal(abs(longestSquare));
 }
 
 // The area that a pixel covers, as a row of `taps` samples along the vector `axis`, each taken at level `lod`.

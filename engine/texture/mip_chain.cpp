@@ -125,15 +125,13 @@ int mipLevelCount(int width, int height)
 }
 
 MipLevel::MipLevel(TexelFormat format, int width, int height)
-    : texelBytes(static_cast<std::size_t>(bytesPerTexel(format))),
-      columns(width),
+    : columns(width),
       rows(height),
       stride(paddedRowTexels(format, width)),
-      columnsInFloat(static_cast<float>(width)),
-      rowsInFloat(static_cast<float>(height))
+      texelBytes(static_cast<std::size_t>(bytesPerTexel(format))),
+      strideInBytes(static_cast<std::size_t>(stride) * texelBytes)
 {
-    const std::size_t bytes = static_cast<std::size_t>(stride) * static_cast<std::size_t>(height + 2) * texelBytes;
-    lines.resize(bytes / kCacheLine);
+    lines.resize(strideInBytes * static_cast<std::size_t>(height + 2) / kCacheLine);
 }
 
 void MipLevel::fillFrame()
@@ -143,13 +141,13 @@ void MipLevel::fillFrame()
         std::memcpy(base + offset(toX, toY) * texelBytes, base + offset(fromX, fromY) * texelBytes,
                     texelsToCopy * texelBytes);
     };
-    for (int y = 0; y < rows; ++y) {
-        copy(-1, y, columns - 1, y, 1);
-        copy(columns, y, 0, y, 1);
+    for (int y = 0; y < height(); ++y) {
+        copy(-1, y, width() - 1, y, 1);
+        copy(width(), y, 0, y, 1);
     }
-    const auto framedRow = static_cast<std::size_t>(columns + 2);
-    copy(-1, -1, -1, rows - 1, framedRow);
-    copy(-1, rows, -1, 0, framedRow);
+    const auto framedRow = static_cast<std::size_t>(width() + 2);
+    copy(-1, -1, -1, height() - 1, framedRow);
+    copy(-1, height(), -1, 0, framedRow);
     opaque = (texelBytes == 4 && hasFullAlpha<std::uint8_t>(*this)) ||
              (texelBytes == 8 && hasFullAlpha<std::uint16_t>(*this));
 }

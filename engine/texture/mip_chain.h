@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "texture/address.h"
+
 namespace relief {
 
 // Red, green, blue, alpha. The first two hold numbers in 0..1 (UNORM: code / 255, code / 65535).
@@ -43,15 +45,15 @@ public:
     // All texels zero. Sides are in 1..kMaxTextureSide.
     MipLevel(TexelFormat format, int width, int height);
 
-    int width() const { return columns; }
-    int height() const { return rows; }
-    float widthInFloat() const { return columnsInFloat; }  // exact, and at hand: a fetch need not convert it
-    float heightInFloat() const { return rowsInFloat; }
+    int width() const { return columns.texels; }
+    int height() const { return rows.texels; }
+    const TextureSide& sideU() const { return columns; }
+    const TextureSide& sideV() const { return rows; }
 
     // From one row to the next, in texels, frame included. A row takes an odd number of cache lines: a column of
     // texels then walks through all sets of the cache, where rows of exactly 4096 bytes would share one set.
     int rowTexels() const { return stride; }
-    std::size_t rowBytes() const { return static_cast<std::size_t>(stride) * texelBytes; }
+    std::size_t rowBytes() const { return strideInBytes; }
 
     // The frame's first texel. Texel (x, y), counted from the lower left of the picture, has the index
     // (y + 1) * rowTexels() + x + 1 from here; x = -1..width and y = -1..height exist.
@@ -88,9 +90,9 @@ private:
     }
 
     std::vector<CacheLine> lines;
-    std::size_t texelBytes;
-    int columns, rows, stride;
-    float columnsInFloat, rowsInFloat;
+    TextureSide columns, rows;
+    int stride;
+    std::size_t texelBytes, strideInBytes;
     bool opaque = false;
 };
 

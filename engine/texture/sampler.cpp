@@ -24,8 +24,8 @@ inline const Texture& textureOf(const sampler2D& s)
 inline Float limitedLevel(const sampler2D& s, int levels, Float lod)
 {
     const auto last = static_cast<float>(levels - 1);
-    const auto existing = [last](float level) { return level > 0.0f ? std::min(level, last) : 0.0f; };
-    const float low = existing(s.minLod), high = std::max(low, s.maxLod < last ? existing(s.maxLod) : last);
+    const float low = std::min(std::max(0.0f, s.minLod), last);  // std::max and std::min give the first where the
+    const float high = std::max(low, std::min(last, s.maxLod));  // second is NaN
     return Float(native::max(native::min(lod.value, Float(high).value), Float(low).value));
 }
 
@@ -36,44 +36,67 @@ inline Int fixedLevel(const sampler2D& s, const Texture& texture, Float lod)
     return Int(native::roundToInt((limited * static_cast<float>(kLodOne)).value));
 }
 
-// --- one function per texel format; lanes are handed on one by one, because single ones travel in registers ---
+// --- one function per texel format and kind of address modes ---
+//
+// What is not inlined takes single lanes, because these travel in registers, and returns through a reference: the last
+// call of a function that returns nothing is a jump.
 
-template <class Fetch>
-[[gnu::noinline]] float4 finestIn(const sampler2D& s, const Texture& texture, Float u, Float v)
+template <class Fetch, class Modes>
+[[gnu::noinline]] void finestIn(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v)
 {
-    return Fetch::toUnit(sampleLevel<Fetch>(placeOf(s, texture, u, v), texture.level(0)));
+    result = Fetch::toUnit(sampleLevel<Fetch>(Place<Modes>(s, texture, u, v), texture.level(0)));
 }
 
-template <class Fetch>
-[[gnu::noinline]] float4 mipChainIn(const sampler2D& s, const Texture& texture, Float u, Float v, Int lod, int guess)
+template <class Fetch, class Modes>
+[[gnu::always_inline]] inline void mipChainInlined(float4& result, const sampler2D& s, const Texture& texture, Float u,
+                                                   Float v, Int lod, int guess)
 {
-    return Fetch::toUnit(sampleMipLevels<Fetch>(placeOf(s, texture, u, v), lod, guess));
+    result = Fetch::toUnit(sampleMipLevels<Fetch>(Place<Modes>(s, texture, u, v), lod, guess));
 }
 
-inline float4 sampleFinest(const sampler2D& s, const Texture& texture, Float u, Float v)
+template <class Fetch, class Modes>
+[[gnu::noinline]] void mipChainIn(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v, Int lod,
+                                  int guess)
 {
+    mipChainInlined<Fetch, Modes>(result, s, texture, u, v, lod, guess);
+}
+
+// Calls one of these: `function` names it for a texel format and address modes, as in finestIn<Fetch, Modes>.
+template <class Function>
+[[gnu::always_inline]] inline void forFormat(const sampler2D& s, const Texture& texture, const Function& function)
+{
+    const auto forModes = [&]<class Fetch>() __attribute__((always_inline))
+    {
+        if (isRepeated(s)) [[likely]]
+            return function.template operator()<Fetch, Repeated>();
+        return function.template operator()<Fetch, AnyModes>();
+    };
     switch (texture.format()) {
         case TexelFormat::rgba8:
-            return finestIn<FetchRgba8>(s, texture, u, v);
+            return forModes.template operator()<FetchRgba8>();
         case TexelFormat::rgba16:
-            return finestIn<FetchRgba16>(s, texture, u, v);
+            return forModes.template operator()<FetchRgba16>();
         case TexelFormat::rgba32Float:
             break;
     }
-    return finestIn<FetchRgba32Float>(s, texture, u, v);
+    return forModes.template operator()<FetchRgba32Float>();
 }
 
-inline float4 sampleMipChain(const sampler2D& s, const Texture& texture, Float u, Float v, Int lod, int guess)
+inline void sampleFinest(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v)
 {
-    switch (texture.format()) {
-        case TexelFormat::rgba8:
-            return mipChainIn<FetchRgba8>(s, texture, u, v, lod, guess);
-        case TexelFormat::rgba16:
-            return mipChainIn<FetchRgba16>(s, texture, u, v, lod, guess);
-        case TexelFormat::rgba32Float:
-            break;
-    }
-    return mipChainIn<FetchRgba32Float>(s, texture, u, v, lod, guess);
+    forFormat(
+        s, texture, [&]<class Fetch, class Modes>() __attribute__((always_inline)) {
+            finestIn<Fetch, Modes>(result, s, texture, u, v);
+        });
+}
+
+inline void sampleMipChain(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v, Int lod,
+                           int guess)
+{
+    forFormat(
+        s, texture, [&]<class Fetch, class Modes>() __attribute__((always_inline)) {
+            mipChainIn<Fetch, Modes>(result, s, texture, u, v, lod, guess);
+        });
 }
 
 // --- counting (see fetch_counters.h) ---
@@ -103,6 +126,7 @@ inline void countSample(const sampler2D& s)
 
 inline void countLevels(const sampler2D& s, unsigned onFinest, unsigned onOneLevel)
 {
+    if ((onOneLevel & activeLanes) == 0) return;  // as mostly
     fetchCounters.magnified += countOf(onFinest & activeLanes);
     if (s.filter == Filter::trilinear) fetchCounters.secondLevelSkipped += countOf(onOneLevel & activeLanes);
 }
@@ -112,43 +136,14 @@ inline void countNoDerivatives()
     fetchCounters.noDerivatives += countOf(activeLanes);
 }
 
-// --- the kinds of sample ---
-
-inline float4 sampleFinestCounted(const sampler2D& s, const Texture& texture, Float u, Float v)
+inline void countFinest(const sampler2D& s)
 {
     countSample(s);
     countLevels(s, kAllLanes, kAllLanes);
     if (isAnisotropic(s)) fetchCounters.taps += countOf(activeLanes);
-    return sampleFinest(s, texture, u, v);
 }
 
-// Without mip levels there is no level of detail to choose.
-inline float4 sampleOnlyLevel(const sampler2D& s, const Texture& texture, Float u, Float v)
-{
-    countNoDerivatives();
-    return sampleFinestCounted(s, texture, u, v);
-}
-
-[[gnu::always_inline]] inline float4 sampleIsotropic(const sampler2D& s, const Texture& texture, Float u, Float v,
-                                                     Float lod, int guess)
-{
-    const Int fixed = fixedLevel(s, texture, lod);
-    const unsigned onFinest = (fixed == 0).bits();
-    countSample(s);
-    countLevels(s, onFinest, ((fixed & (kLodOne - 1)) == 0).bits());
-    if (isAnisotropic(s)) fetchCounters.taps += countOf(activeLanes);  // tex2Dlod
-    if (leavesOut::coarserLevel && (wantedLanes() & ~onFinest) == 0) return sampleFinest(s, texture, u, v);
-    return sampleMipChain(s, texture, u, v, fixed, guess);
-}
-
-// The level that a block most likely wants, quickly: half the exponent of the first lane's `square` is the integer part
-// of its level, before bias and limits.
-inline int likelyLevel(const sampler2D& s, const Texture& texture, Float square)
-{
-    const int exponent = (asInt(square)[0] >> 23) - 127;
-    const int level = (s.filter == Filter::trilinear ? exponent : exponent + 1) >> 1;
-    return std::clamp(level, 0, texture.levelCount() - 1);
-}
+// --- the level of detail ---
 
 // The bias of the sampler and of a call, within D3D's limits (7.18.10).
 inline Float limitBias(const sampler2D& s, Float bias)
@@ -170,27 +165,6 @@ inline bool allAtMost(float a, float limit, unsigned)
     return a <= limit;
 }
 
-inline float2 toTexels(const Texture& texture, const float2& change)
-{
-    const glm::vec4& size = texture.texelSize();
-    return {change.x * size.z, change.y * size.w};
-}
-
-// The result where the texture is the same everywhere.
-[[gnu::noinline]] float4 sampleConstant(const sampler2D& s, const Texture& texture)
-{
-    countSample(s);
-    countLevels(s, kAllLanes, kAllLanes);
-    countNoDerivatives();
-    fetchCounters.constant += countOf(activeLanes);
-    return broadcast(texture.constant());
-}
-
-inline bool isConstant(const sampler2D& s, const Texture& texture)
-{
-    return leavesOut::constants && texture.isConstant() && !hasBorder(s);
-}
-
 // The coordinate's change from one pixel to the next.
 struct Gradients
 {
@@ -202,6 +176,12 @@ inline Gradients gradientsOf(Float u, Float v)
     return {{ddx(u), ddx(v)}, {ddy(u), ddy(v)}};
 }
 
+inline float2 toTexels(const Texture& texture, const float2& change)
+{
+    const glm::vec4& size = texture.texelSize();
+    return {change.x * size.z, change.y * size.w};
+}
+
 // Magnified as a whole: no logarithm is needed to know that level 0 is wanted, with one sample.
 template <class Bias>
 inline bool isMagnified(const sampler2D& s, Float square, Bias wholeBias)
@@ -211,26 +191,98 @@ inline bool isMagnified(const sampler2D& s, Float square, Bias wholeBias)
            allAtMost(wholeBias, 0.0f, wanted);
 }
 
-// `bias` is without the sampler's own, a float or one per lane.
-template <class Bias>
-[[gnu::always_inline]] inline float4 sampleIsotropicBy(const Gradients& change, Bias bias, const sampler2D& s,
-                                                       const Texture& texture, Float u, Float v)
+// The level that a block most likely wants, quickly: half the exponent of the first lane's `square` is the integer part
+// of its level, before bias and limits.
+inline int likelyLevel(const sampler2D& s, const Texture& texture, Float square)
+{
+    const int exponent = (asInt(square)[0] >> 23) - 127;
+    const int level = (s.filter == Filter::trilinear ? exponent : exponent + 1) >> 1;
+    return std::clamp(level, 0, texture.levelCount() - 1);
+}
+
+// Ends in finest() where all lanes want level 0 alone, else in mipChain(lod, guess).
+template <class Finest, class MipChain>
+[[gnu::always_inline]] inline void sampleAtLevel(const sampler2D& s, const Texture& texture, Float lod, int guess,
+                                                 const Finest& finest, const MipChain& mipChain)
+{
+    const Int fixed = fixedLevel(s, texture, lod);
+    const unsigned onFinest = (fixed == 0).bits();
+    countSample(s);
+    countLevels(s, onFinest, ((fixed & (kLodOne - 1)) == 0).bits());
+    if (isAnisotropic(s)) fetchCounters.taps += countOf(activeLanes);  // tex2Dlod
+    if (leavesOut::coarserLevel && (wantedLanes() & ~onFinest) == 0) return finest();
+    return mipChain(fixed, guess);
+}
+
+// The same, with the level that the coordinate's change asks for. `bias` is without the sampler's own, a float or one
+// per lane.
+template <class Bias, class Finest, class MipChain>
+[[gnu::always_inline]] inline void sampleIsotropic(const sampler2D& s, const Texture& texture, const Gradients& change,
+                                                   Bias bias, const Finest& finest, const MipChain& mipChain)
 {
     const Float square = longestSquare(toTexels(texture, change.dx), toTexels(texture, change.dy));
     const Bias wholeBias = limitBias(s, bias);
-    if (isMagnified(s, square, wholeBias)) return sampleFinestCounted(s, texture, u, v);
-    return sampleIsotropic(s, texture, u, v, limitedIsotropicLevel(square) + wholeBias,
-                           likelyLevel(s, texture, square));
+    if (isMagnified(s, square, wholeBias)) {
+        countFinest(s);
+        return finest();
+    }
+    return sampleAtLevel(s, texture, limitedIsotropicLevel(square) + wholeBias, likelyLevel(s, texture, square), finest,
+                         mipChain);
+}
+
+// --- the kinds of sample ---
+
+// The result where the texture is the same everywhere.
+[[gnu::noinline]] void sampleConstant(float4& result, const sampler2D& s, const Texture& texture)
+{
+    countSample(s);
+    countLevels(s, kAllLanes, kAllLanes);
+    countNoDerivatives();
+    fetchCounters.constant += countOf(activeLanes);
+    result = broadcast(texture.constant());
+}
+
+inline bool isConstant(const sampler2D& s, const Texture& texture)
+{
+    return leavesOut::constants && texture.isConstant() && !hasBorder(s);
+}
+
+inline bool usesMipLevels(const sampler2D& s, const Texture& texture)
+{
+    return s.mipmaps && texture.levelCount() > 1;
+}
+
+// Without mip levels there is no level of detail to choose.
+inline void sampleOnlyLevel(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v)
+{
+    countNoDerivatives();
+    countFinest(s);
+    return sampleFinest(result, s, texture, u, v);
+}
+
+// tex2D as it mostly is, in one piece.
+template <class Fetch, class Modes>
+[[gnu::noinline]] void implicitIn(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v)
+{
+    const auto finest = [&] { finestIn<Fetch, Modes>(result, s, texture, u, v); };
+    const auto mipChain = [&](Int lod, int guess) __attribute__((always_inline))
+    {
+        mipChainInlined<Fetch, Modes>(result, s, texture, u, v, lod, guess);
+    };
+    sampleIsotropic(s, texture, gradientsOf(u, v), 0.0f, finest, mipChain);
 }
 
 // The average of the taps, which lie evenly on the footprint's axis: tap i of n at (2 i + 1 - n) / 2n of it. It is kept
 // as a running mean, mean += (tap - mean) / (i + 1): equal taps give exactly themselves.
-[[gnu::noinline]] float4 sampleAnisotropic(const sampler2D& s, const Texture& texture, Float u, Float v,
-                                           const Gradients& change, Float bias)
+[[gnu::noinline]] void sampleAnisotropic(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v,
+                                         const Gradients& change, Float bias)
 {
     const float2 dX = toTexels(texture, change.dx), dY = toTexels(texture, change.dy);
     const Float wholeBias = limitBias(s, bias);
-    if (isMagnified(s, longestSquare(dX, dY), wholeBias)) return sampleFinestCounted(s, texture, u, v);
+    if (isMagnified(s, longestSquare(dX, dY), wholeBias)) {
+        countFinest(s);
+        return sampleFinest(result, s, texture, u, v);
+    }
 
     const auto limit = static_cast<float>(std::min(s.maxAnisotropy, 16));
     const AnisotropicFootprint footprint = anisotropicFootprint(dX, dY, limit);
@@ -242,14 +294,14 @@ template <class Bias>
     const Float perTap = 0.5f / footprint.taps;
     const int guess = fixed[0] >> kLodBits;
 
-    float4 mean;
+    float4 mean, tap;
     for (int i = 0; i < 16; ++i) {
         const Mask hasTap = footprint.taps > static_cast<float>(i);
         const unsigned lanes = hasTap.bits() & wantedLanes();
         if (lanes == 0) break;
         fetchCounters.taps += countOf(lanes & activeLanes);
         const Float along = (static_cast<float>(2 * i + 1) - footprint.taps) * perTap;
-        const float4 tap = sampleMipChain(s, texture, u + axis.x * along, v + axis.y * along, fixed, guess);
+        sampleMipChain(tap, s, texture, u + axis.x * along, v + axis.y * along, fixed, guess);
         if (i == 0) {
             mean = tap;
         } else {
@@ -257,36 +309,35 @@ template <class Bias>
             for (int c = 0; c < 4; ++c) mean[c] = select(hasTap, mean[c] + (tap[c] - mean[c]) * share, mean[c]);
         }
     }
-    return mean;
+    result = mean;
 }
 
-[[gnu::noinline]] float4 sampleAnisotropicImplicit(const sampler2D& s, const Texture& texture, Float u, Float v)
+[[gnu::noinline]] void sampleAnisotropicImplicit(float4& result, const sampler2D& s, const Texture& texture, Float u,
+                                                 Float v)
 {
-    return sampleAnisotropic(s, texture, u, v, gradientsOf(u, v), 0.0f);
-}
-
-inline bool usesMipLevels(const sampler2D& s, const Texture& texture)
-{
-    return s.mipmaps && texture.levelCount() > 1;
+    sampleAnisotropic(result, s, texture, u, v, gradientsOf(u, v), 0.0f);
 }
 
 // `gradients` gives the coordinate's changes; it is called only where a level of detail is chosen.
 template <class TakeGradients, class Bias>
-float4 sampleBy(TakeGradients gradients, Bias bias, const sampler2D& s, Float u, Float v)
+void sampleBy(TakeGradients gradients, Bias bias, float4& result, const sampler2D& s, Float u, Float v)
 {
     const Texture& texture = textureOf(s);
-    if (isConstant(s, texture)) return sampleConstant(s, texture);
-    if (!usesMipLevels(s, texture)) return sampleOnlyLevel(s, texture, u, v);
+    if (isConstant(s, texture)) return sampleConstant(result, s, texture);
+    if (!usesMipLevels(s, texture)) return sampleOnlyLevel(result, s, texture, u, v);
     const Gradients change = gradients();
-    if (isAnisotropic(s)) return sampleAnisotropic(s, texture, u, v, change, bias);
-    return sampleIsotropicBy(change, bias, s, texture, u, v);
+    if (isAnisotropic(s)) return sampleAnisotropic(result, s, texture, u, v, change, bias);
+    const auto finest = [&] { sampleFinest(result, s, texture, u, v); };
+    const auto mipChain = [&](Int lod, int guess) { sampleMipChain(result, s, texture, u, v, lod, guess); };
+    sampleIsotropic(s, texture, change, bias, finest, mipChain);
 }
 
 // No texture is white.
-[[gnu::noinline]] float4 sampleWhite(sampler2D s, Float u, Float v)
+[[gnu::noinline]] void sampleWhite(float4& result, const sampler2D& s, Float u, Float v)
 {
-    s.texture = &Texture::white();
-    return detail::sampleImplicit(s, u, v);
+    sampler2D white = s;
+    white.texture = &Texture::white();
+    detail::sampleImplicit(result, white, u, v);
 }
 
 Float impliedLevel(const sampler2D& s, const Texture& texture, const float2& uv)
@@ -300,38 +351,43 @@ Float impliedLevel(const sampler2D& s, const Texture& texture, const float2& uv)
 
 namespace detail {
 
-// tex2D itself. Every call is the last thing that it does, so that u and v stay in registers.
-float4 sampleImplicit(const sampler2D& s, Float u, Float v)
+// tex2D itself.
+void sampleImplicit(float4& result, const sampler2D& s, Float u, Float v)
 {
-    if (s.texture == nullptr) return sampleWhite(s, u, v);
+    if (s.texture == nullptr) return sampleWhite(result, s, u, v);
     const Texture& texture = *s.texture;
-    if (isConstant(s, texture)) return sampleConstant(s, texture);
-    if (!usesMipLevels(s, texture)) return sampleOnlyLevel(s, texture, u, v);
-    if (isAnisotropic(s)) return sampleAnisotropicImplicit(s, texture, u, v);
-    return sampleIsotropicBy(gradientsOf(u, v), 0.0f, s, texture, u, v);
+    if (isConstant(s, texture)) return sampleConstant(result, s, texture);
+    if (!usesMipLevels(s, texture)) return sampleOnlyLevel(result, s, texture, u, v);
+    if (isAnisotropic(s)) return sampleAnisotropicImplicit(result, s, texture, u, v);
+    forFormat(
+        s, texture, [&]<class Fetch, class Modes>() __attribute__((always_inline)) {
+            implicitIn<Fetch, Modes>(result, s, texture, u, v);
+        });
 }
 
-float4 sampleBias(const sampler2D& s, Float u, Float v, Float bias)
+void sampleBias(float4& result, const sampler2D& s, Float u, Float v, Float bias)
 {
-    return sampleBy([&] { return gradientsOf(u, v); }, bias, s, u, v);
+    sampleBy([&] { return gradientsOf(u, v); }, bias, result, s, u, v);
 }
 
-float4 sampleGradients(const sampler2D& s, Float u, Float v, const float2& dx, const float2& dy)
+void sampleGradients(float4& result, const sampler2D& s, Float u, Float v, const float2& dx, const float2& dy)
 {
     const auto given = [&] {
         countNoDerivatives();
         return Gradients{dx, dy};
     };
-    return sampleBy(given, 0.0f, s, u, v);
+    sampleBy(given, 0.0f, result, s, u, v);
 }
 
-float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod)
+void sampleLod(float4& result, const sampler2D& s, Float u, Float v, Float lod)
 {
     const Texture& texture = textureOf(s);
-    if (isConstant(s, texture)) return sampleConstant(s, texture);
-    if (!usesMipLevels(s, texture)) return sampleOnlyLevel(s, texture, u, v);
+    if (isConstant(s, texture)) return sampleConstant(result, s, texture);
+    if (!usesMipLevels(s, texture)) return sampleOnlyLevel(result, s, texture, u, v);
     countNoDerivatives();
-    return sampleIsotropic(s, texture, u, v, lod + limitBias(s, 0.0f), 0);
+    const auto finest = [&] { sampleFinest(result, s, texture, u, v); };
+    const auto mipChain = [&](Int fixed, int guess) { sampleMipChain(result, s, texture, u, v, fixed, guess); };
+    sampleAtLevel(s, texture, lod + limitBias(s, 0.0f), 0, finest, mipChain);
 }
 
 }  // namespace detail

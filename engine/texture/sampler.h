@@ -38,11 +38,11 @@ struct sampler2D
 
 namespace detail {
 
-// Single lanes as parameters travel in registers, vectors of them through memory.
-float4 sampleImplicit(const sampler2D& s, Float u, Float v);
-float4 sampleBias(const sampler2D& s, Float u, Float v, Float bias);
-float4 sampleGradients(const sampler2D& s, Float u, Float v, const float2& dx, const float2& dy);
-float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod);
+// Single lanes as parameters travel in registers, vectors of them through memory. See sampler.cpp for the references.
+void sampleImplicit(float4& result, const sampler2D& s, Float u, Float v);
+void sampleBias(float4& result, const sampler2D& s, Float u, Float v, Float bias);
+void sampleGradients(float4& result, const sampler2D& s, Float u, Float v, const float2& dx, const float2& dy);
+void sampleLod(float4& result, const sampler2D& s, Float u, Float v, Float lod);
 
 }  // namespace detail
 
@@ -50,7 +50,9 @@ float4 sampleLod(const sampler2D& s, Float u, Float v, Float lod);
 // must get here together: call it outside of anything that only some lanes do, or use tex2Dgrad or tex2Dlod.
 inline float4 tex2D(const sampler2D& s, const float2& uv)
 {
-    return detail::sampleImplicit(s, uv.x, uv.y);
+    float4 color;
+    detail::sampleImplicit(color, s, uv.x, uv.y);
+    return color;
 }
 
 // The colour at uv where `needed`, 0 elsewhere; nothing is fetched where no pixel of the block needs it. HLSL's branch
@@ -61,19 +63,25 @@ float4 tex2DWhere(Mask needed, const sampler2D& s, const float2& uv);
 // frac) where the surface does not.
 inline float4 tex2Dgrad(const sampler2D& s, const float2& uv, const float2& dx, const float2& dy)
 {
-    return detail::sampleGradients(s, uv.x, uv.y, dx, dy);
+    float4 color;
+    detail::sampleGradients(color, s, uv.x, uv.y, dx, dy);
+    return color;
 }
 
 // The colour at uvLod.xy on level uvLod.w (the sampler's limits and bias apply). Never anisotropic.
 inline float4 tex2Dlod(const sampler2D& s, const float4& uvLod)
 {
-    return detail::sampleLod(s, uvLod.x, uvLod.y, uvLod.w);
+    float4 color;
+    detail::sampleLod(color, s, uvLod.x, uvLod.y, uvLod.w);
+    return color;
 }
 
 // tex2D at uvBias.xy with uvBias.w added to the level of detail.
 inline float4 tex2Dbias(const sampler2D& s, const float4& uvBias)
 {
-    return detail::sampleBias(s, uvBias.x, uvBias.y, uvBias.w);
+    float4 color;
+    detail::sampleBias(color, s, uvBias.x, uvBias.y, uvBias.w);
+    return color;
 }
 
 // The level that tex2D would use, bias and limits included, in 0..levels - 1; and without limits: below 0 is magnified,
