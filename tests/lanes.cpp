@@ -1,9 +1,12 @@
 // Masks, lanes that change places, doubles, and the floating-point environment. lanes_float.cpp and lanes_int.cpp hold
 // the arithmetic.
+#include <algorithm>
 #include <array>
 #include <cfenv>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include <doctest/doctest.h>
@@ -128,6 +131,23 @@ int misplacedLanes(std::integer_sequence<int, code...>)
 }
 
 }  // namespace
+
+TEST_CASE("maxOrNaN: the larger of two numbers that are not negative, NaN where one of them is NaN")
+{
+    const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    const float numbers[] = {0.0f, 1e-45f, 1.0f, std::nextafter(1.0f, 2.0f), 3.4e38f, infinity, nan, -nan};
+    int wrong = 0;
+    for (const float a : numbers) {
+        for (const float b : numbers) {
+            const Float larger(native::maxOrNaN(Float(a).value, Float(b).value));
+            for (int i = 0; i < kLanes; ++i) {
+                const bool right = std::isnan(a) || std::isnan(b) ? std::isnan(larger[i]) : larger[i] == std::max(a, b);
+                wrong += right ? 0 : 1;
+            }
+        }
+    }
+    CHECK(wrong == 0);
+}
 
 TEST_CASE("permuteQuad: every arrangement, in every quad")
 {
