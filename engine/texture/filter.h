@@ -1,9 +1,9 @@
 // Filters: from a place on a texture and a level of detail to a colour, for one texel format. The common case, every
 // lane on one mip level, goes straight through; a block that spans several levels runs once per level.
 //
-// All of this is inlined into three functions (finestIn, mipChainIn and implicitIn in sampler.cpp) for each texel format
-// and kind of address modes: a call in between would move every register through memory. The rare cases that are called
-// take their parameters by value, or these would be in memory for the others, too.
+// All of this is inlined into three functions (finestIn, mipChainIn and implicitIn in sampler.cpp) for each texel
+// format and kind of address modes: a call in between would move every register through memory. The rare cases that are
+// called take their parameters by value, or these would be in memory for the others, too.
 #pragma once
 
 #include <bit>
