@@ -126,7 +126,7 @@ inline void countSample(const sampler2D& s)
 
 inline void countLevels(const sampler2D& s, unsigned onFinest, unsigned onOneLevel)
 {
-    if ((onOneLevel & activeLanes) == 0) return;  // as mostly
+    if ((onOneLevel & activeLanes) == 0) return;  // as mostly; the finest is one level, too
     fetchCounters.magnified += countOf(onFinest & activeLanes);
     if (s.filter == Filter::trilinear) fetchCounters.secondLevelSkipped += countOf(onOneLevel & activeLanes);
 }
