@@ -48,17 +48,10 @@ template <class Fetch, class Modes>
 }
 
 template <class Fetch, class Modes>
-[[gnu::always_inline]] inline void mipChainInlined(float4& result, const sampler2D& s, const Texture& texture, Float u,
-                                                   Float v, Int lod, int guess)
-{
-    result = Fetch::toUnit(sampleMipLevels<Fetch>(Place<Modes>(s, texture, u, v), lod, guess));
-}
-
-template <class Fetch, class Modes>
 [[gnu::noinline]] void mipChainIn(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v, Int lod,
                                   int guess)
 {
-    mipChainInlined<Fetch, Modes>(result, s, texture, u, v, lod, guess);
+    result = Fetch::toUnit(sampleMipLevels<Fetch>(Place<Modes>(s, texture, u, v), lod, guess));
 }
 
 // Calls one of these: `function` names it for a texel format and address modes, as in finestIn<Fetch, Modes>.
@@ -267,7 +260,7 @@ template <class Fetch, class Modes>
     const auto finest = [&] { finestIn<Fetch, Modes>(result, s, texture, u, v); };
     const auto mipChain = [&](Int lod, int guess) __attribute__((always_inline))
     {
-        mipChainInlined<Fetch, Modes>(result, s, texture, u, v, lod, guess);
+        result = Fetch::toUnit(sampleMipLevels<Fetch>(Place<Modes>(s, texture, u, v), lod, guess));
     };
     sampleIsotropic(s, texture, gradientsOf(u, v), 0.0f, finest, mipChain);
 }
