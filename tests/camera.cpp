@@ -38,7 +38,7 @@ TEST_CASE("camera: S-114 near = far, near below 0, 179.9 degrees, an aspect of 1
     REQUIRE(prepared.has_value());
     int drawn = 0, notFinite = 0;
     for (const Camera& camera : cameras) {
-        Framebuffer target = makeTarget(48, 27, ColorFormat::rgba32f, DepthStorage::keep);
+        Framebuffer target = makeTarget(48, 27, Format::rgba32f, Store::keep);
         Frame frame(target, {1, kDefaultTileSize});
         prepared->record(frame, 48, 27, camera);
         const Statistics statistics = frame.run();
@@ -58,7 +58,7 @@ TEST_CASE("camera: S-114 near = far, near below 0, 179.9 degrees, an aspect of 1
             };
             addTriangle(mesh, {corner(0), corner(1), corner(2)});
         }
-        Framebuffer target = makeTarget(48, 27, ColorFormat::rgba32f, DepthStorage::keep);
+        Framebuffer target = makeTarget(48, 27, Format::rgba32f, Store::keep);
         const Statistics statistics = drawClip<kDepthTested>(target, mesh, Value{});
         CHECK(addsUp(statistics));
         notFinite += !allFinite(target);

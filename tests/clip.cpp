@@ -586,7 +586,7 @@ TEST_CASE("clip: a mesh cut by the near plane in view has no holes and no double
 
 TEST_CASE("clip: z at the limits is kept, depth clipping off clamps depth per pixel (S-207, S-208)")
 {
-    Framebuffer target = makeTarget(32, 32, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer target = makeTarget(32, 32, Format::rgba32f, Store::keep);
     const auto draw = [&]<RenderState state>(float z0, float z1, float z2) {
         Mesh mesh;
         addTriangle(mesh, {{-16, -16, z0, 1}}, {{80, -16, z1, 1}}, {{-16, 80, z2, 1}});

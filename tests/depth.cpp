@@ -58,10 +58,10 @@ int wrongPixels(const Projection& projection, double z, double steps)
         Mesh mesh;
         addPlane(mesh, projection, z, nearFirst ? 0.0 : gap, glm::vec4(nearFirst ? 1.0f : 2.0f));
         addPlane(mesh, projection, z, nearFirst ? gap : 0.0, glm::vec4(nearFirst ? 2.0f : 1.0f));
-        Framebuffer target = makeTarget(64, 48, ColorFormat::rgba32f, DepthStorage::keep);
+        Framebuffer target = makeTarget(64, 48, Format::rgba32f, Store::keep);
         Frame frame(target, {1, kDefaultTileSize});
         frame.clear(glm::vec4(0.0f), state.depthTest == Compare::greater ? 0.0f : 1.0f);
-        frame.draw<state>(mesh, FromClip{}, Value{});
+        frame.draw(mesh, FromClip{}, Value{}, state);
         checkInvariants(target, frame.run());
         wrong += pixelsNotEqualTo(target, 1.0f);
     }
@@ -90,7 +90,7 @@ std::uint64_t bitsOf(const Framebuffer& target, int x, int y)
 {
     const std::size_t i =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width()) + static_cast<std::size_t>(x);
-    std::uint64_t hash = target.format() == ColorFormat::rgba32f ? hashBytes(&target.color32f()[i], sizeof(glm::vec4))
+    std::uint64_t hash = target.format() == Format::rgba32f ? hashBytes(&target.color32f()[i], sizeof(glm::vec4))
                                                                  : hashBytes(&target.color8()[i], 4);
     return hashBytes(&target.depth()[i], 4, hash);
 }
@@ -130,7 +130,7 @@ TEST_CASE("depth: S-906 a vertex whose depth is NaN drops its triangle, and the 
             Mesh mesh;
             addTriangle(mesh, {p[0]}, {p[1]}, {p[2]});
             for (const bool clip : {true, false}) {
-                Framebuffer target = makeTarget(16, 16, ColorFormat::rgba32f, DepthStorage::keep);
+                Framebuffer target = makeTarget(16, 16, Format::rgba32f, Store::keep);
                 const Statistics statistics =
                     clip ? drawClip<kWrite>(target, mesh) : drawClip<kWriteUnclipped>(target, mesh);
                 checkInvariants(target, statistics);
@@ -150,7 +150,7 @@ TEST_CASE("depth: S-909 a depth one float beyond 0 or 1, not clipped, is 0 or 1"
     for (const auto& [z, expected] : {std::pair{above, 1.0f}, {below, 0.0f}, {-0.0f, 0.0f}, {1.0f, 1.0f}}) {
         Mesh mesh;
         addTriangle(mesh, {{-1, -1, z, 1}}, {{-1, 3, z, 1}}, {{3, -1, z, 1}});
-        Framebuffer target = makeTarget(16, 16, ColorFormat::rgba32f, DepthStorage::keep);
+        Framebuffer target = makeTarget(16, 16, Format::rgba32f, Store::keep);
         checkInvariants(target, drawClip<kUnclipped>(target, mesh));
         for (const float stored : target.depth()) wrong += stored != expected;
     }
@@ -162,11 +162,11 @@ TEST_CASE("depth: S-956 nothing outside of the rectangle that is drawn changes, 
     Random random(956);
     int changed = 0, same = 0;
     for (int trial = 0; trial < trials(300); ++trial) {
-        const ColorFormat format = trial % 3 == 0   ? ColorFormat::rgba8
-                                   : trial % 3 == 1 ? ColorFormat::rgba8Srgb
-                                                    : ColorFormat::rgba32f;
+        const Format format = trial % 3 == 0   ? Format::rgba8
+                                   : trial % 3 == 1 ? Format::rgba8Srgb
+                                                    : Format::rgba32f;
         const int width = random.between(1, 70), height = random.between(1, 70);
-        Framebuffer target = makeTarget(width, height, format, DepthStorage::keep);
+        Framebuffer target = makeTarget(width, height, format, Store::keep);
         // Every pixel another pattern: the guard around what is drawn.
         for (std::uint32_t& c : target.color8()) c = static_cast<std::uint32_t>(random.next());
         for (glm::vec4& c : target.color32f()) c = {random.real(0, 1), random.real(0, 1), random.real(0, 1), 5.0f};
@@ -183,7 +183,7 @@ TEST_CASE("depth: S-956 nothing outside of the rectangle that is drawn changes, 
         } else {
             frame.setViewport({r.x0, r.y0, std::max(0, r.x1 - r.x0), std::max(0, r.y1 - r.y0)});
         }
-        frame.draw<kDepthTested>(mesh, FromClip{}, Value{});
+        frame.draw(mesh, FromClip{}, Value{}, kDepthTested);
         checkInvariants(target, frame.run());
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
@@ -212,7 +212,7 @@ TEST_CASE("depth: S-959 NaN that the owner left in a target is gone wherever som
             const Viewport viewport = exactViewport(40, 24);
             Frame frame(target, {1, kDefaultTileSize});
             frame.setViewport(viewport);
-            frame.draw<state>(mesh, FromPixels(viewport), Value{});
+            frame.draw(mesh, FromPixels(viewport), Value{}, state);
             CHECK(addsUp(frame.run()));
             const ExactTriangle exact(Corners{{{0, 0}, {40 * 256, 0}, {0, 24 * 256}}});
             for (int y = 0; y < 24; ++y) {

@@ -73,15 +73,15 @@ struct Scene
         const Viewport viewport = exactViewport(width, height);
         frame.clear({0.1f, 0.2f, 0.3f, 1.0f});
         frame.setViewport(viewport);
-        frame.draw<kDepthTested>(flat, FromPixels(viewport), Wavy{1.0f});
-        frame.draw<kDepthTested>(holes, FromPixels(viewport), WavyWithHoles{});
+        frame.draw(flat, FromPixels(viewport), Wavy{1.0f}, kDepthTested);
+        frame.draw(holes, FromPixels(viewport), WavyWithHoles{}, kDepthTested);
         frame.setViewport({-10, 5, width + 7, height - 9});
-        frame.draw<kDepthTested>(spatial, FromClip{}, Wavy{0.5f});
+        frame.draw(spatial, FromClip{}, Wavy{0.5f}, kDepthTested);
         frame.setScissor({11, 7, width - 3, height - 20});
-        frame.draw<kOverTested>(spatial, FromClip{}, Wavy{1.5f});
-        frame.draw<kOver>(flat, FromClip{}, WavyWithHoles{});
+        frame.draw(spatial, FromClip{}, Wavy{1.5f}, kOverTested);
+        frame.draw(flat, FromClip{}, WavyWithHoles{}, kOver);
         frame.setViewport(viewport);
-        frame.draw<kCount>(holes, FromPixels(viewport), Wavy{0.125f});
+        frame.draw(holes, FromPixels(viewport), Wavy{0.125f}, kCount);
     }
 };
 
@@ -347,14 +347,14 @@ TEST_CASE("frame: fans around a pixel centre on a tile's border (S-302)")
 
 TEST_CASE("frame: one picture for every number of threads and every tile size (S-311, S-1001, S-1007)")
 {
-    for (const ColorFormat format : {ColorFormat::rgba32f, ColorFormat::rgba8Srgb, ColorFormat::rgba8}) {
+    for (const Format format : {Format::rgba32f, Format::rgba8Srgb, Format::rgba8}) {
         for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(trials(10, 20)); ++seed) {
             const Scene scene(seed);
-            Framebuffer reference = makeTarget(150, 100, format, DepthStorage::keep);
+            Framebuffer reference = makeTarget(150, 100, format, Store::keep);
             Statistics expected;
             for (const int tileSize : kTileSizes) {
                 for (const int threads : kThreadCounts) {
-                    Framebuffer target = makeTarget(150, 100, format, DepthStorage::keep);
+                    Framebuffer target = makeTarget(150, 100, format, Store::keep);
                     Frame frame(target, {threads, tileSize});
                     scene.record(frame, 150, 100);
                     const Statistics statistics = frame.run();
@@ -374,7 +374,7 @@ TEST_CASE("frame: one picture for every number of threads and every tile size (S
 TEST_CASE("frame: a hundred repetitions, one hash (S-1003)")
 {
     const Scene scene(100, 3);
-    Framebuffer target = makeTarget(150, 100, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer target = makeTarget(150, 100, Format::rgba32f, Store::keep);
     Frame frame(target, {3, 16});
     scene.record(frame, 150, 100);
     frame.run();
@@ -398,7 +398,7 @@ TEST_CASE("frame: 1000 blended triangles, in order whatever the threads, and as 
         addTriangle(one, c, color);
         addTriangle(all, c, color);
     }
-    for (const ColorFormat format : {ColorFormat::rgba32f, ColorFormat::rgba8, ColorFormat::rgba8Srgb}) {
+    for (const Format format : {Format::rgba32f, Format::rgba8, Format::rgba8Srgb}) {
         Framebuffer together = makeTarget(90, 70, format), alone = makeTarget(90, 70, format);
         drawPixels<kOver>(together, all, Value{}, {1, 64});
         for (const int tileSize : {16, 128}) {
@@ -414,7 +414,7 @@ TEST_CASE("frame: 1000 blended triangles, in order whatever the threads, and as 
         for (const Mesh& one : single) {
             frame.reset();
             frame.setViewport(viewport);
-            frame.draw<kOver>(one, FromPixels(viewport), Value{});
+            frame.draw(one, FromPixels(viewport), Value{}, kOver);
             frame.run();
         }
         CHECK(sameBits(alone, together));
@@ -475,7 +475,7 @@ TEST_CASE("frame: scissors empty, inverted, outside and of one pixel (S-317)")
             frame.clear(glm::vec4(0.0f));
             frame.setViewport(exactViewport(40, 35));
             frame.setScissor(c.scissor);
-            frame.draw<kCount>(mesh, FromPixels(exactViewport(40, 35)), One{});
+            frame.draw(mesh, FromPixels(exactViewport(40, 35)), One{}, kCount);
             const Statistics statistics = frame.run();
             int wrong = 0;
             for (int y = 0; y < 35; ++y) {
@@ -518,7 +518,7 @@ TEST_CASE("frame: odd viewports, inside, outside and larger than the target (S-1
         Frame frame(target, {1, 32});
         frame.clear(glm::vec4(0.0f));
         frame.setViewport(v);
-        frame.draw<kCount>(mesh, FromClip{}, One{});
+        frame.draw(mesh, FromClip{}, One{}, kCount);
         const Statistics statistics = frame.run();
         checkInvariants(target, statistics);
         checkRunsAgain(frame, target);
@@ -561,7 +561,7 @@ TEST_CASE("frame: a viewport inside a larger target gives the same pixels (S-113
         Frame frame(larger, {1, 64});
         frame.clear(glm::vec4(0.0f));
         frame.setViewport(v);
-        frame.draw<kDepthTested>(mesh, FromClip{}, Value{});
+        frame.draw(mesh, FromClip{}, Value{}, kDepthTested);
         frame.run();
         int wrong = 0, outside = 0, inside = 0;
         for (int y = 0; y < 128; ++y) {
@@ -587,10 +587,10 @@ TEST_CASE("frame: targets of one row, one column and 3x3 (S-318)")
 {
     const int sizes[][2] = {{1, 1}, {1, 2}, {1, 200}, {200, 1}, {3, 3}, {2, 5}, {17, 15}, {129, 3}};
     for (const auto& size : sizes) {
-        for (const ColorFormat format : {ColorFormat::rgba32f, ColorFormat::rgba8}) {
+        for (const Format format : {Format::rgba32f, Format::rgba8}) {
             for (const int tileSize : kTileSizes) {
                 const Scene scene(7);
-                Framebuffer target = makeTarget(size[0], size[1], format, DepthStorage::keep);
+                Framebuffer target = makeTarget(size[0], size[1], format, Store::keep);
                 Frame frame(target, {2, tileSize});
                 scene.record(frame, size[0], size[1]);
                 checkInvariants(target, frame.run());
@@ -622,9 +622,9 @@ TEST_CASE("frame: no draws, no triangles, no pixels, more threads than tiles (S-
         Mesh badIndices = meshOf({{{{0, 0}, {2560, 0}, {0, 2560}}}});
         badIndices.indices = {0, 1, 3, 0, 0, 1, 4294967295u, 1, 2, 0, 1, 2};
         frame.setViewport({0, 0, 16, 16});
-        frame.draw<kPaint>(nothing, FromPixels({0, 0, 16, 16}), One{});
-        frame.draw<kPaint>(noTriangles, FromPixels({0, 0, 16, 16}), One{});
-        frame.draw<kPaint>(badIndices, FromPixels({0, 0, 16, 16}), One{});
+        frame.draw(nothing, FromPixels({0, 0, 16, 16}), One{}, kPaint);
+        frame.draw(noTriangles, FromPixels({0, 0, 16, 16}), One{}, kPaint);
+        frame.draw(badIndices, FromPixels({0, 0, 16, 16}), One{}, kPaint);
         const Statistics statistics = frame.run();
         CHECK(statistics.draws == 3);
         CHECK(statistics.droppedIndex == 2);
@@ -656,8 +656,8 @@ TEST_CASE("frame: without a clear a frame draws onto what is there, depth includ
         return mesh;
     }();
     const Viewport viewport = {0, 0, 32, 32};
-    for (const ColorFormat format : {ColorFormat::rgba32f, ColorFormat::rgba8, ColorFormat::rgba8Srgb}) {
-        for (const DepthStorage storage : {DepthStorage::keep, DepthStorage::transient}) {
+    for (const Format format : {Format::rgba32f, Format::rgba8, Format::rgba8Srgb}) {
+        for (const Store storage : {Store::keep, Store::discard}) {
             // Near first, then far: with kept depth the far one is hidden.
             Framebuffer two = makeTarget(32, 32, format, storage), one = makeTarget(32, 32, format, storage);
             Frame first(two, {1, 16});
@@ -667,13 +667,13 @@ TEST_CASE("frame: without a clear a frame draws onto what is there, depth includ
             first.run();
             Frame second(two, {2, 32});  // another tile size, another pool
             second.setViewport(viewport);
-            second.draw<kDepthTested>(behind, FromPixels(viewport), Value{});
+            second.draw(behind, FromPixels(viewport), Value{}, kDepthTested);
             checkInvariants(two, second.run());
 
             Frame both(one, {1, 64});
             both.clear({0.25f, 0.5f, 0.75f, 1.0f});
             both.setViewport(viewport);
-            if (storage == DepthStorage::keep) {
+            if (storage == Store::keep) {
                 both.draw<kDepthTested>(front, FromPixels(viewport), Value{});
                 both.draw<kDepthTested>(behind, FromPixels(viewport), Value{});
             } else {
@@ -696,10 +696,10 @@ TEST_CASE("frame: reset forgets the draws, the clear and its depth, the viewport
     frame.clear(glm::vec4(3.0f), 0.0f);
     frame.setViewport({0, 0, 2, 2});
     frame.setScissor({0, 0, 1, 1});
-    frame.draw<kPaint>(mesh, FromPixels(viewport), One{});
+    frame.draw(mesh, FromPixels(viewport), One{}, kPaint);
     frame.run();
     frame.reset();
-    frame.draw<kDepthTested>(mesh, FromPixels(viewport), One{});
+    frame.draw(mesh, FromPixels(viewport), One{}, kDepthTested);
     const Statistics statistics = frame.run();
     CHECK(statistics.draws == 1);
     CHECK(statistics.pixelsShaded == 256);
@@ -714,12 +714,12 @@ TEST_CASE("frame: reversed depth")
     addTriangle(far, Corners{{{0, 0}, {32 * 256, 0}, {0, 32 * 256}}}, glm::vec4(1.0f), 0.25f);
     addTriangle(near, Corners{{{0, 0}, {16 * 256, 0}, {0, 16 * 256}}}, glm::vec4(2.0f), 0.75f);
     for (const bool nearFirst : {false, true}) {
-        Framebuffer target = makeTarget(32, 32, ColorFormat::rgba32f, DepthStorage::keep);
+        Framebuffer target = makeTarget(32, 32, Format::rgba32f, Store::keep);
         Frame frame(target, {1, 16});
         frame.clear(glm::vec4(0.0f), 0.0f);
         frame.setViewport(viewport);
-        frame.draw<kReversed>(nearFirst ? near : far, FromPixels(viewport), Value{});
-        frame.draw<kReversed>(nearFirst ? far : near, FromPixels(viewport), Value{});
+        frame.draw(nearFirst ? near : far, FromPixels(viewport), Value{}, kReversed);
+        frame.draw(nearFirst ? far : near, FromPixels(viewport), Value{}, kReversed);
         const Statistics statistics = frame.run();
         checkInvariants(target, statistics);
         CHECK(pixel(target, 3, 3) == glm::vec4(2.0f));
@@ -739,10 +739,10 @@ TEST_CASE("frame: the caller's rounding mode and flushing of subnormals change n
     const Viewport viewport = exactViewport(150, 100);
     const auto record = [&](Frame& frame) {
         scene.record(frame, 150, 100);
-        frame.draw<kOver>(tiny, FromPixels(viewport), Value{});
+        frame.draw(tiny, FromPixels(viewport), Value{}, kOver);
     };
-    for (const ColorFormat format : {ColorFormat::rgba32f, ColorFormat::rgba8Srgb}) {
-        Framebuffer expected = makeTarget(150, 100, format, DepthStorage::keep);
+    for (const Format format : {Format::rgba32f, Format::rgba8Srgb}) {
+        Framebuffer expected = makeTarget(150, 100, format, Store::keep);
         {
             Frame frame(expected, {1, 64});
             record(frame);
@@ -750,7 +750,7 @@ TEST_CASE("frame: the caller's rounding mode and flushing of subnormals change n
         }
         for (const int threads : {1, 3}) {
             for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-                Framebuffer target = makeTarget(150, 100, format, DepthStorage::keep);
+                Framebuffer target = makeTarget(150, 100, format, Store::keep);
                 REQUIRE(std::fesetround(mode) == 0);
 #if defined(__SSE2__)
                 _mm_setcsr(_mm_getcsr() | 0x8040u);
@@ -773,13 +773,13 @@ TEST_CASE("frame: the caller's rounding mode and flushing of subnormals change n
 TEST_CASE("frame: the clear colour and depth, also when they are no numbers")
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
-    Framebuffer target = makeTarget(40, 40, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer target = makeTarget(40, 40, Format::rgba32f, Store::keep);
     const Mesh mesh = meshOf({{{{0, 0}, {2560, 0}, {0, 2560}}}});  // some tiles touched, some not
     for (const float depth : {0.25f, nan, infinity, -infinity}) {
         Frame frame(target, {1, 16});
         frame.clear({nan, infinity, -infinity, 0.5f}, depth);
         frame.setViewport(exactViewport(40, 40));
-        frame.draw<kDepthTested>(mesh, FromPixels(exactViewport(40, 40)), One{});
+        frame.draw(mesh, FromPixels(exactViewport(40, 40)), One{}, kDepthTested);
         checkInvariants(target, frame.run());
         const float largest = std::numeric_limits<float>::max();
         CHECK(pixel(target, 39, 39) == glm::vec4(0, largest, -largest, 0.5f));
@@ -835,8 +835,8 @@ TEST_CASE("frame: the same bits in every build, on any processor (S-1009, S-1010
     // arithmetic of the pipeline is changed on purpose.
     const Scene scene(2024, 2);
     std::uint64_t hash = 0;
-    for (const ColorFormat format : {ColorFormat::rgba32f, ColorFormat::rgba8Srgb}) {
-        Framebuffer target = makeTarget(150, 100, format, DepthStorage::keep);
+    for (const Format format : {Format::rgba32f, Format::rgba8Srgb}) {
+        Framebuffer target = makeTarget(150, 100, format, Store::keep);
         Frame frame(target, {2, 64});
         scene.record(frame, 150, 100);
         frame.run();

@@ -28,7 +28,7 @@ void record(Frame& frame, const Mesh& mesh, const Framebuffer& target)
     const Viewport viewport = exactViewport(target.width(), target.height());
     frame.clear(glm::vec4(0.25f));
     frame.setViewport(viewport);
-    frame.draw<kOver>(mesh, FromPixels(viewport), Value{});
+    frame.draw(mesh, FromPixels(viewport), Value{}, kOver);
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ void record(Frame& frame, const Mesh& mesh, const Framebuffer& target)
 TEST_CASE("frame life: S-1006 a target that cannot be had is an error, and the next frame is the same as ever")
 {
     const Mesh mesh = randomMesh(1006, 200, 90, 60);
-    Framebuffer target = makeTarget(90, 60, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer target = makeTarget(90, 60, Format::rgba32f, Store::keep);
     Frame frame(target, {3, 16});
     record(frame, mesh, target);
     frame.run();
@@ -55,7 +55,7 @@ TEST_CASE("frame life: S-1006 a target that cannot be had is an error, and the n
 TEST_CASE("frame life: S-1013 frames thrown away and targets of other sizes in between leave no trace")
 {
     const Mesh mesh = randomMesh(1013, 300, 120, 90);
-    Framebuffer target = makeTarget(120, 90, ColorFormat::rgba8Srgb, DepthStorage::keep);
+    Framebuffer target = makeTarget(120, 90, Format::rgba8Srgb, Store::keep);
     Frame kept(target, {3, 32});
     record(kept, mesh, target);
     kept.run();

@@ -9,16 +9,16 @@ using namespace fixture;
 
 TEST_CASE("framebuffer: each format has its own storage, of the right size")
 {
-    for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::rgba8Srgb, ColorFormat::rgba32f}) {
-        for (const DepthStorage depth : {DepthStorage::transient, DepthStorage::keep}) {
+    for (const Format format : {Format::rgba8, Format::rgba8Srgb, Format::rgba32f}) {
+        for (const Store depth : {Store::discard, Store::keep}) {
             const Framebuffer target = makeTarget(7, 5, format, depth);
             CHECK(target.width() == 7);
             CHECK(target.height() == 5);
             CHECK(target.format() == format);
             CHECK(target.depthStorage() == depth);
-            CHECK(target.color32f().size() == (format == ColorFormat::rgba32f ? 35 : 0));
-            CHECK(target.color8().size() == (format == ColorFormat::rgba32f ? 0 : 35));
-            CHECK(target.depth().size() == (depth == DepthStorage::keep ? 35 : 0));
+            CHECK(target.color32f().size() == (format == Format::rgba32f ? 35 : 0));
+            CHECK(target.color8().size() == (format == Format::rgba32f ? 0 : 35));
+            CHECK(target.depth().size() == (depth == Store::keep ? 35 : 0));
             for (const glm::vec4& c : target.color32f()) CHECK(c == glm::vec4(0.0f));
             for (const std::uint32_t c : target.color8()) CHECK(c == 0);
             for (const float z : target.depth()) CHECK(z == 1.0f);

@@ -86,6 +86,6 @@ TEST_CASE("golden: one bit in one pixel fails, is named, and is shown eight time
 TEST_CASE("golden: a float target is refused, not compared")
 {
     const TemporaryFolder folder;
-    const Framebuffer target = *Framebuffer::create(4, 4, ColorFormat::rgba32f);
+    const Framebuffer target = *Framebuffer::create(4, 4, Format::rgba32f);
     CHECK_FALSE(checkGolden(target, folder / "float.png", folder / "failures"));
 }

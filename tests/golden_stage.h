@@ -22,7 +22,7 @@ inline std::filesystem::path hashesPath()
     return std::filesystem::path(RELIEF_GOLDEN_FOLDER) / "hashes.txt";
 }
 
-inline Expected<Framebuffer> renderForGolden(const Stage& stage, ColorFormat format, const FrameOptions& options = {})
+inline Expected<Framebuffer> renderForGolden(const Stage& stage, Format format, const FrameOptions& options = {})
 {
     // A golden is of one variant, whatever the CMake option BINORMAL_PER_FRAGMENT says.
     std::vector<std::string> settings;
@@ -33,7 +33,7 @@ inline Expected<Framebuffer> renderForGolden(const Stage& stage, ColorFormat for
     if (!prepared) return tl::unexpected(prepared.error());
     Expected<Framebuffer> target =
         Framebuffer::create(kGoldenWidth, kGoldenHeight, format,
-                            format == ColorFormat::rgba32f ? DepthStorage::keep : DepthStorage::transient);
+                            format == Format::rgba32f ? Store::keep : Store::discard);
     if (!target) return target;
     Frame frame(*target, options);
     prepared->record(frame, kGoldenWidth, kGoldenHeight);

@@ -385,7 +385,7 @@ TEST_CASE("interpolate: interpolators of nothing but a position")
     Frame frame(target, {1, 16});
     frame.clear(glm::vec4(0.0f));
     frame.setViewport(viewport);
-    frame.draw<kDepthTested>(mesh, PositionOnlyVertex{FromPixels(viewport)}, PositionOnlyFragment{});
+    frame.draw(mesh, PositionOnlyVertex{FromPixels(viewport)}, PositionOnlyFragment{}, kDepthTested);
     checkInvariants(target, frame.run());
     CHECK(pixel(target, 3, 5) == glm::vec4(3.5f, 5.5f, 0.5f, 1.0f));
 }
@@ -403,7 +403,7 @@ TEST_CASE("interpolate: perspective and noperspective side by side")
     Frame frame(target, {1, 16});
     frame.clear(glm::vec4(-1.0f));
     frame.setViewport(viewport);
-    frame.draw<kPaint>(mesh, TwoKindsFromPixels{FromPixels(viewport)}, ShowBoth{});
+    frame.draw(mesh, TwoKindsFromPixels{FromPixels(viewport)}, ShowBoth{}, kPaint);
     checkInvariants(target, frame.run());
     double worst = 0.0;
     for (int y = 0; y < 32; ++y) {
@@ -522,8 +522,8 @@ TEST_CASE("interpolate: subnormal values are kept (S-406)")
 TEST_CASE("interpolate: moved by whole pixels, values and depth have the same bits (S-310)")
 {
     Random random(67);
-    Framebuffer here = makeTarget(128, 128, ColorFormat::rgba32f, DepthStorage::keep);
-    Framebuffer there = makeTarget(128, 128, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer here = makeTarget(128, 128, Format::rgba32f, Store::keep);
+    Framebuffer there = makeTarget(128, 128, Format::rgba32f, Store::keep);
     int wrong = 0, drawn = 0;
     for (int trial = 0; trial < trials(300); ++trial) {
         const int dx = random.between(0, 63), dy = random.between(0, 63);

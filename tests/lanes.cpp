@@ -12,7 +12,7 @@
 #include <doctest/doctest.h>
 
 #include "lane_check.h"
-#include "lanes/active.h"
+#include "texture/shading_scope.h"
 #include "lanes/double.h"
 #include "lanes/environment.h"
 #include "lanes/float.h"
@@ -103,9 +103,9 @@ TEST_CASE("Mask: wholeQuads completes every quad of which one pixel is set")
     }
 }
 
-TEST_CASE("activeLanes: all of them until a thread says otherwise")
+TEST_CASE("shading scope: all lanes count until a thread says otherwise")
 {
-    CHECK(activeLanes == kAllLanes);
+    CHECK(shading.activeLanes == kAllLanes);
 }
 
 // --- lanes that change places ---

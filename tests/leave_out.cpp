@@ -7,6 +7,7 @@
 #include "common/render.h"
 #include "leave_out.h"
 #include "mesh/primitives.h"
+#include "pipeline/instruments.h"
 #include "pipeline_fixture.h"
 #include "shading/lights.h"
 
@@ -98,7 +99,7 @@ struct FragmentProgram
 };
 
 template <unsigned features>
-std::uint64_t pictureWith(const Mesh& mesh, ColorFormat format)
+std::uint64_t pictureWith(const Mesh& mesh, Format format)
 {
     constexpr RenderState kState = {
         .depthTest = (features & testsDepth) != 0 ? Compare::less : Compare::always,
@@ -112,8 +113,8 @@ std::uint64_t pictureWith(const Mesh& mesh, ColorFormat format)
     Frame frame(target, {1, kDefaultTileSize});
     frame.clear(glm::vec4(0.0f));
     frame.setViewport(viewport);
-    frame.draw<kState>(mesh, VertexProgram<(features & interpolates) != 0>{FromPixels(viewport)},
-                       FragmentProgram<features>{{.texture = &Texture::white()}});
+    frame.draw(mesh, VertexProgram<(features & interpolates) != 0>{FromPixels(viewport)},
+                       FragmentProgram<features>{{.texture = &Texture::white()}}, kState);
     const Statistics statistics = frame.run();
     checkInvariants(target, statistics);
     CHECK(statistics.rasterised == mesh.indices.size() / 3);
@@ -122,17 +123,17 @@ std::uint64_t pictureWith(const Mesh& mesh, ColorFormat format)
 
 // Every pair, each alone, and all together.
 template <int first, int second>
-int differing(const Mesh& mesh, ColorFormat format, std::uint64_t expected)
+int differing(const Mesh& mesh, Format format, std::uint64_t expected)
 {
     return pictureWith<1u << first | 1u << second>(mesh, format) != expected;
 }
 template <int first, int... second>
-int differingFrom(const Mesh& mesh, ColorFormat format, std::uint64_t expected, std::integer_sequence<int, second...>)
+int differingFrom(const Mesh& mesh, Format format, std::uint64_t expected, std::integer_sequence<int, second...>)
 {
     return (differing<first, first + second>(mesh, format, expected) + ...);
 }
 template <int... first>
-int differingPairs(const Mesh& mesh, ColorFormat format, std::uint64_t expected, std::integer_sequence<int, first...>)
+int differingPairs(const Mesh& mesh, Format format, std::uint64_t expected, std::integer_sequence<int, first...>)
 {
     return (differingFrom<first>(mesh, format, expected, std::make_integer_sequence<int, kFeatures - first>()) + ...);
 }
@@ -215,7 +216,7 @@ TEST_CASE("leave out: S-1101 every pair of features that have nothing to do give
 {
     const Mesh mesh = separateTriangles();
     int pairs = 0, wrong = 0;
-    for (const ColorFormat format : {ColorFormat::rgba32f, ColorFormat::rgba8Srgb}) {
+    for (const Format format : {Format::rgba32f, Format::rgba8Srgb}) {
         const std::uint64_t plain = pictureWith<0>(mesh, format);
         wrong += differingPairs(mesh, format, plain, std::make_integer_sequence<int, kFeatures>());
         wrong += pictureWith<(1u << kFeatures) - 1>(mesh, format) != plain;
@@ -247,7 +248,7 @@ TEST_CASE("leave out: S-1101 every set of pictures that are constants gives the 
             inputs.detail = (given & 2) != 0 ? spread(Texture::grey()) : nullptr;
             inputs.normal = (given & 4) != 0 ? spread(Texture::flatNormal()) : nullptr;
             inputs.detailNormal = (given & 8) != 0 ? spread(Texture::flatNormal()) : nullptr;
-            Framebuffer target = makeTarget(96, 54, ColorFormat::rgba32f, DepthStorage::keep);
+            Framebuffer target = makeTarget(96, 54, Format::rgba32f, Store::keep);
             Frame frame(target, {1, kDefaultTileSize});
             prepared->record(frame, 96, 54);
             const Statistics statistics = frame.run();
@@ -279,7 +280,7 @@ TEST_CASE("leave out: S-1102 without a normal map nothing is sampled, and tangen
         frame.clear(glm::vec4(0.0f));
         frame.draw(sphere, LitVertexProgram{object}, LitFragmentProgram<DirectionalLight, false>{sun, {}, {}});
         picture.statistics = frame.run();
-        components = frame.componentCount(0);
+        components = *componentCount(frame, 0);
         return picture;
     };
     int components = 0;
@@ -334,13 +335,13 @@ TEST_CASE("leave out: S-1106 what is behind is not shaded, and a draw of depth a
         addTriangle(*mesh, {{-1, -1, z, 1}, glm::vec4(1.0f)}, {{-1, 3, z, 1}, glm::vec4(1.0f)},
                     {{3, -1, z, 1}, glm::vec4(1.0f)});
     }
-    Framebuffer target = makeTarget(64, 48, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer target = makeTarget(64, 48, Format::rgba32f, Store::keep);
     Frame frame(target, {1, kDefaultTileSize});
     frame.clear(glm::vec4(0.0f));
-    frame.draw<kDepthTested>(near, PositionProgram{}, Black{});  // depth first
+    frame.draw(near, PositionProgram{}, Black{}, kDepthTested);  // depth first
     const Statistics depthAlone = frame.run();
-    measured("components of depth alone", frame.componentCount(0), 0);
-    frame.draw<kDepthTested>(far, FromClip{}, Value{});
+    measured("components of depth alone", *componentCount(frame, 0), 0);
+    frame.draw(far, FromClip{}, Value{}, kDepthTested);
     const Statistics both = frame.run();
     measured("pixels shaded behind", both.pixelsShaded - depthAlone.pixelsShaded, 0);
     CHECK(both.pixelsHidden == 64 * 48);
@@ -370,8 +371,8 @@ TEST_CASE("leave out: S-1107 a light that does not reach needs no pass, and ligh
             frame.draw(sphere, LitVertexProgram{object}, LitFragmentProgram<DirectionalLight, false>{sun, dark, {}});
         }
         if (lamp != nullptr) {
-            frame.draw<kAdditive>(sphere, LitVertexProgram{object},
-                                  LitFragmentProgram<PointLight, false>{*lamp, dark, {}});
+            frame.draw(sphere, LitVertexProgram{object},
+                                  LitFragmentProgram<PointLight, false>{*lamp, dark, {}}, kAdditive);
         }
         draws = static_cast<int>(frame.run().draws);
         return target;

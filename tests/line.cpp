@@ -159,8 +159,8 @@ TEST_CASE("line: what is behind a surface is hidden, what is in front is seen")
     Frame frame(target, {1, kDefaultTileSize});
     frame.clear(glm::vec4(0.0f));
     frame.setViewport(viewport);
-    frame.draw<kDepthTested>(wall, FromPixels(viewport), Value{});
-    frame.draw<lineState<1>(kDepthTested)>(line, FromPixels(viewport), Value{});
+    frame.draw(wall, FromPixels(viewport), Value{}, kDepthTested);
+    frame.draw(line, FromPixels(viewport), Value{}, lineState<1>(kDepthTested));
     frame.run();
     for (int x = 0; x < 32; ++x) {
         CHECK(target.color32f()[static_cast<std::size_t>(8 * 32 + x)].x == (x < 16 ? 1.0f : 0.5f));

@@ -125,7 +125,7 @@ void drawByHand(const std::vector<SceneTriangle>& scene, Compare compare, bool w
 {
     std::fill(result.color32f().begin(), result.color32f().end(), glm::vec4(0.0f));
     std::fill(result.depth().begin(), result.depth().end(), clearDepth);
-    Framebuffer alone = makeTarget(result.width(), result.height(), ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer alone = makeTarget(result.width(), result.height(), Format::rgba32f, Store::keep);
     constexpr RenderState kAlone = {Compare::always, true, true, Cull::none, Blend::off};
     for (const SceneTriangle& t : scene) {
         Mesh mesh;
@@ -151,7 +151,7 @@ Statistics drawScene(const std::vector<SceneTriangle>& scene, float clearDepth, 
     Frame frame(target, options);
     frame.clear(glm::vec4(0.0f), clearDepth);
     frame.setViewport(viewport);
-    frame.draw<state>(mesh, FromPixels(viewport), fragment);
+    frame.draw(mesh, FromPixels(viewport), fragment, state);
     return frame.run();
 }
 
@@ -262,7 +262,7 @@ TEST_CASE("output merger: what a program may return and what is stored (S-951)")
         for (int channel = 0; channel < 4; ++channel) {
             float4 color(Float(0.5f));
             color[channel] = c.value;
-            Framebuffer wide = makeTarget(16, 16), narrow = makeTarget(16, 16, ColorFormat::rgba8);
+            Framebuffer wide = makeTarget(16, 16), narrow = makeTarget(16, 16, Format::rgba8);
             const Statistics s32 = drawPixels<kPaint>(wide, mesh, Uniform{color});
             const Statistics s8 = drawPixels<kPaint>(narrow, mesh, Uniform{color});
             CHECK(std::bit_cast<std::uint32_t>(pixel(wide, 1, 1)[channel]) == std::bit_cast<std::uint32_t>(c.stored32));
@@ -308,8 +308,8 @@ TEST_CASE("output merger: the three formats store one picture each in its own wa
     const float4 color(Float(0.2f), Float(0.5f), Float(0.001f), Float(0.5f));
     const Corners c = {{{0, 0}, {40 * 256, 0}, {0, 40 * 256}}};
     fixture::addTriangle(mesh, c);
-    Framebuffer wide = makeTarget(8, 8), unorm = makeTarget(8, 8, ColorFormat::rgba8),
-                srgb = makeTarget(8, 8, ColorFormat::rgba8Srgb);
+    Framebuffer wide = makeTarget(8, 8), unorm = makeTarget(8, 8, Format::rgba8),
+                srgb = makeTarget(8, 8, Format::rgba8Srgb);
     drawPixels<kPaint>(wide, mesh, Uniform{color});
     drawPixels<kPaint>(unorm, mesh, Uniform{color});
     drawPixels<kPaint>(srgb, mesh, Uniform{color});
@@ -323,13 +323,13 @@ TEST_CASE("output merger: blending in each format (S-954)")
 {
     const Mesh mesh = meshOf({{{{0, 0}, {40 * 256, 0}, {0, 40 * 256}}}});
     const glm::vec4 below = {0.25f, 0.5f, 0.75f, 0.5f}, above = {0.5f, 0.75f, 1.0f, 0.25f};
-    const auto draw = [&]<Blend blend>(ColorFormat format) {
+    const auto draw = [&]<Blend blend>(Format format) {
         constexpr RenderState kState = {Compare::always, false, true, Cull::none, blend};
         Framebuffer target = makeTarget(8, 8, format);
         Frame frame(target, {1, 16});
         frame.clear(below);
         frame.setViewport({0, 0, 8, 8});
-        frame.draw<kState>(mesh, FromPixels({0, 0, 8, 8}), Uniform{broadcast(above)});
+        frame.draw(mesh, FromPixels({0, 0, 8, 8}), Uniform{broadcast(above)}, kState);
         checkInvariants(target, frame.run());
         return target;
     };
@@ -352,14 +352,14 @@ TEST_CASE("output merger: blending in each format (S-954)")
     const glm::vec4 sum = below + above, mixed = above * above.w + below * (1.0f - above.w);
     const glm::vec4 saturatedSum = {0.75f, 1.0f, 1.0f, 0.75f};
 
-    CHECK(pixel(draw.operator()<Blend::off>(ColorFormat::rgba32f), 3, 3) == above);
-    CHECK(pixel(draw.operator()<Blend::additive>(ColorFormat::rgba32f), 3, 3) == sum);
-    CHECK(near(pixel(draw.operator()<Blend::alpha>(ColorFormat::rgba32f), 3, 3), mixed, 2e-7f));
-    CHECK(near(unpack(draw.operator()<Blend::additive>(ColorFormat::rgba8).color8()[27]), saturatedSum, 1.1f / 255));
-    CHECK(near(unpack(draw.operator()<Blend::alpha>(ColorFormat::rgba8).color8()[27]), mixed, 1.1f / 255));
+    CHECK(pixel(draw.operator()<Blend::off>(Format::rgba32f), 3, 3) == above);
+    CHECK(pixel(draw.operator()<Blend::additive>(Format::rgba32f), 3, 3) == sum);
+    CHECK(near(pixel(draw.operator()<Blend::alpha>(Format::rgba32f), 3, 3), mixed, 2e-7f));
+    CHECK(near(unpack(draw.operator()<Blend::additive>(Format::rgba8).color8()[27]), saturatedSum, 1.1f / 255));
+    CHECK(near(unpack(draw.operator()<Blend::alpha>(Format::rgba8).color8()[27]), mixed, 1.1f / 255));
     // In linear light: an error of one code is at most 1 % of it there.
-    CHECK(near(decoded(draw.operator()<Blend::additive>(ColorFormat::rgba8Srgb).color8()[27]), saturatedSum, 0.01f));
-    CHECK(near(decoded(draw.operator()<Blend::alpha>(ColorFormat::rgba8Srgb).color8()[27]), mixed, 0.01f));
+    CHECK(near(decoded(draw.operator()<Blend::additive>(Format::rgba8Srgb).color8()[27]), saturatedSum, 0.01f));
+    CHECK(near(decoded(draw.operator()<Blend::alpha>(Format::rgba8Srgb).color8()[27]), mixed, 0.01f));
 }
 
 TEST_CASE("output merger: an opaque source hides what is below, a transparent one leaves it as it is")
@@ -396,7 +396,7 @@ TEST_CASE("output merger: sums saturate instead of wrapping, or overflowing (S-9
 {
     std::vector<Corners> twenty(20, Corners{{{0, 0}, {40 * 256, 0}, {0, 40 * 256}}});
     const Mesh mesh = meshOf(twenty);
-    for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::rgba8Srgb}) {
+    for (const Format format : {Format::rgba8, Format::rgba8Srgb}) {
         Framebuffer target = makeTarget(8, 8, format);
         drawPixels<kCount>(target, mesh, One{});
         for (const std::uint32_t c : target.color8()) CHECK(c == 0xffffffffu);
@@ -412,8 +412,8 @@ TEST_CASE("output merger: sums saturate instead of wrapping, or overflowing (S-9
             Frame frame(wide, {1, 16});
             frame.clear(glm::vec4(-value));
             frame.setViewport({0, 0, 8, 8});
-            frame.draw<kAlpha>(mesh, FromPixels({0, 0, 8, 8}),
-                               Uniform{float4(Float(value), Float(value), Float(value), Float(alpha))});
+            frame.draw(mesh, FromPixels({0, 0, 8, 8}),
+                               Uniform{float4(Float(value), Float(value), Float(value), Float(alpha))}, kAlpha);
             checkInvariants(wide, frame.run());
         }
     }
@@ -422,7 +422,7 @@ TEST_CASE("output merger: sums saturate instead of wrapping, or overflowing (S-9
 TEST_CASE("output merger: additive steps of 1/255 count up without an error")
 {
     std::vector<Corners> many(200, Corners{{{0, 0}, {40 * 256, 0}, {0, 40 * 256}}});
-    Framebuffer target = makeTarget(8, 8, ColorFormat::rgba8);
+    Framebuffer target = makeTarget(8, 8, Format::rgba8);
     drawPixels<kCount>(target, meshOf(many), Uniform{float4(Float(1.0f / 255.0f))});
     for (const std::uint32_t c : target.color8()) CHECK(c == rgba(200, 200, 200, 200));
 }
@@ -430,7 +430,7 @@ TEST_CASE("output merger: additive steps of 1/255 count up without an error")
 TEST_CASE("output merger: only live lanes are written (S-960)")
 {
     Random random(72);
-    for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::rgba8Srgb, ColorFormat::rgba32f}) {
+    for (const Format format : {Format::rgba8, Format::rgba8Srgb, Format::rgba32f}) {
         Framebuffer target = makeTarget(16, 16, format);
         Tile tile(16, format);
         int wrong = 0;
@@ -449,7 +449,7 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
                     for (int l = 0; l < kLanes; ++l) lane = laneX(l) == x && laneY(l) == y ? l : lane;
                     const bool written = lane >= 0 && (live >> lane & 1u) != 0;
                     const auto at = static_cast<std::size_t>(y * 16 + x);
-                    const bool same = format == ColorFormat::rgba32f ? target.color32f()[at] == cleared.color32f()[at]
+                    const bool same = format == Format::rgba32f ? target.color32f()[at] == cleared.color32f()[at]
                                                                      : target.color8()[at] == cleared.color8()[at];
                     wrong += same == written;
                 }
@@ -459,7 +459,7 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
     }
 
     // In a frame: pixels beside the triangle, and discarded ones, keep their bits.
-    Framebuffer target = makeTarget(32, 32, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer target = makeTarget(32, 32, Format::rgba32f, Store::keep);
     for (std::size_t i = 0; i < target.color32f().size(); ++i) {
         target.color32f()[i] = glm::vec4(static_cast<float>(i));
         target.depth()[i] = 0.9f + static_cast<float>(i) * 1e-6f;
@@ -470,7 +470,7 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
     fixture::addTriangle(mesh, c, glm::vec4(-1, -1, -1, 2));
     Frame frame(target, {1, 16});
     frame.setViewport({0, 0, 32, 32});
-    frame.draw<kDepthTested>(mesh, FromPixels({0, 0, 32, 32}), DiscardPattern{});
+    frame.draw(mesh, FromPixels({0, 0, 32, 32}), DiscardPattern{}, kDepthTested);
     const Statistics statistics = frame.run();
     const ExactTriangle exact(c);
     int wrong = 0;
@@ -490,8 +490,8 @@ TEST_CASE("output merger: depth-tested scenes equal pixel-by-pixel comparison (S
 {
     Random random(73);
     const auto keep = [](int, int, float) { return false; };
-    Framebuffer expected = makeTarget(70, 40, ColorFormat::rgba32f, DepthStorage::keep);
-    Framebuffer target = makeTarget(70, 40, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer expected = makeTarget(70, 40, Format::rgba32f, Store::keep);
+    Framebuffer target = makeTarget(70, 40, Format::rgba32f, Store::keep);
     forEachCompare([&]<Compare compare>() {
         CAPTURE(static_cast<int>(compare));
         for (const float clearDepth : {0.0f, 0.5f, 1.0f}) {
@@ -514,8 +514,8 @@ TEST_CASE("output merger: depth-tested scenes equal pixel-by-pixel comparison (S
 TEST_CASE("output merger: a discarded fragment neither shows nor hides (S-910)")
 {
     Random random(74);
-    Framebuffer expected = makeTarget(70, 40, ColorFormat::rgba32f, DepthStorage::keep);
-    Framebuffer target = makeTarget(70, 40, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer expected = makeTarget(70, 40, Format::rgba32f, Store::keep);
+    Framebuffer target = makeTarget(70, 40, Format::rgba32f, Store::keep);
     const auto compareAll = [&]<Compare compare>(float clearDepth) {
         constexpr RenderState kState = {compare, true, true, Cull::none, Blend::off};
         for (int i = 0; i < 4; ++i) {
@@ -535,8 +535,8 @@ TEST_CASE("output merger: a discarded fragment neither shows nor hides (S-910)")
 TEST_CASE("output merger: a second pass at the same depths (S-901)")
 {
     Random random(75);
-    for (const DepthStorage storage : {DepthStorage::transient, DepthStorage::keep}) {
-        Framebuffer target = makeTarget(70, 40, ColorFormat::rgba32f, storage);
+    for (const Store storage : {Store::discard, Store::keep}) {
+        Framebuffer target = makeTarget(70, 40, Format::rgba32f, storage);
         const std::vector<SceneTriangle> scene = randomScene(random, trials(100), 70, 40);
         Mesh mesh;
         for (const SceneTriangle& t : scene) addTriangle(mesh, t);
@@ -549,9 +549,9 @@ TEST_CASE("output merger: a second pass at the same depths (S-901)")
             Frame frame(target, {1, 32});
             frame.clear(glm::vec4(0.0f));
             frame.setViewport(viewport);
-            frame.draw<kLess>(mesh, FromPixels(viewport), Uniform{float4(Float(1.0f))});
+            frame.draw(mesh, FromPixels(viewport), Uniform{float4(Float(1.0f))}, kLess);
             // Another program and more interpolators: the same depths all the same.
-            frame.draw<second>(mesh, FromPixels(viewport), Uniform{float4(Float(16.0f))});
+            frame.draw(mesh, FromPixels(viewport), Uniform{float4(Float(16.0f))}, second);
             checkInvariants(target, frame.run());
             int first = 0, second_ = 0;
             for (const glm::vec4& c : target.color32f()) {
@@ -574,7 +574,7 @@ TEST_CASE("output merger: a second pass at the same depths (S-901)")
 
 TEST_CASE("output merger: depth is linear on screen and within the corners' range")
 {
-    Framebuffer target = makeTarget(64, 64, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer target = makeTarget(64, 64, Format::rgba32f, Store::keep);
     Mesh mesh;
     fixture::addTriangle(mesh, {{0, 0, 0.1f, 1}}, {{128, 0, 0.9f, 16}}, {{0, 128, 0.4f, 0.25f}});
     checkInvariants(target, drawPixels<kDepthTested>(target, mesh, One{}));

@@ -68,7 +68,7 @@ struct Drawing
 
     Picture operator()(int width = 33, int height = 33) const
     {
-        Expected<Framebuffer> target = Framebuffer::create(width, height, ColorFormat::rgba32f, DepthStorage::keep);
+        Expected<Framebuffer> target = Framebuffer::create(width, height, Format::rgba32f, Store::keep);
         REQUIRE(target.has_value());
         Frame frame(*target, {.threads = 1});
         prepared.record(frame, width, height, camera);

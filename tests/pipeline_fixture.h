@@ -308,8 +308,8 @@ inline constexpr RenderState kPaint = {Compare::always, false, true, Cull::none,
 // The usual state, but for culling.
 inline constexpr RenderState kDepthTested = {Compare::less, true, true, Cull::none, Blend::off};
 
-inline Framebuffer makeTarget(int width, int height, ColorFormat format = ColorFormat::rgba32f,
-                              DepthStorage depth = DepthStorage::transient)
+inline Framebuffer makeTarget(int width, int height, Format format = Format::rgba32f,
+                              Store depth = Store::discard)
 {
     Expected<Framebuffer> target = Framebuffer::create(width, height, format, depth);
     REQUIRE(target.has_value());
@@ -325,7 +325,7 @@ Statistics drawPixels(Framebuffer& target, const Mesh& mesh, const FragmentProgr
     Frame frame(target, options);
     frame.clear(glm::vec4(0.0f));
     frame.setViewport(viewport);
-    frame.draw<state>(mesh, FromPixels(viewport), fragment);
+    frame.draw(mesh, FromPixels(viewport), fragment, state);
     return frame.run();
 }
 
@@ -336,7 +336,7 @@ Statistics drawClip(Framebuffer& target, const Mesh& mesh, const FragmentProgram
 {
     Frame frame(target, options);
     frame.clear(glm::vec4(0.0f));
-    frame.draw<state>(mesh, FromClip{}, fragment);
+    frame.draw(mesh, FromClip{}, fragment, state);
     return frame.run();
 }
 

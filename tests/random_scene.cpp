@@ -204,8 +204,8 @@ struct DrawCall
 struct Scene
 {
     int width = 1, height = 1;
-    ColorFormat format = ColorFormat::rgba8;
-    DepthStorage depth = DepthStorage::keep;
+    Format format = Format::rgba8;
+    Store depth = Store::keep;
     FrameOptions options, otherOptions;
     bool clears = true;
     glm::vec4 clearColor{0.0f};
@@ -336,8 +336,8 @@ Scene randomScene(Source source)
     Numbers number(source, extremes[source.between(0, 3)]);
     scene.width = source.between(1, 40);
     scene.height = source.between(1, 40);
-    scene.format = static_cast<ColorFormat>(source.between(0, 2));
-    scene.depth = source.chance(3) ? DepthStorage::transient : DepthStorage::keep;
+    scene.format = static_cast<Format>(source.between(0, 2));
+    scene.depth = source.chance(3) ? Store::discard : Store::keep;
     scene.options = {source.between(1, 3), 16 << source.between(0, 3)};
     scene.otherOptions = {source.between(1, 4), 16 << source.between(0, 3)};
     scene.clears = source.chance(2);
@@ -369,25 +369,25 @@ void record(Frame& frame, const Scene& scene)
                 frame.draw(d.mesh, d.vertex, Lit{d.material});
                 break;
             case 1:
-                frame.draw<kAdditive>(d.mesh, d.vertex, Lit{d.material});
+                frame.draw(d.mesh, d.vertex, Lit{d.material}, kAdditive);
                 break;
             case 2:
-                frame.draw<kOver>(d.mesh, d.vertex, WithHoles{d.material});
+                frame.draw(d.mesh, d.vertex, WithHoles{d.material}, kOver);
                 break;
             case 3:
-                frame.draw<kReversed>(d.mesh, d.vertex, FromThreeSides{d.material});
+                frame.draw(d.mesh, d.vertex, FromThreeSides{d.material}, kReversed);
                 break;
             case 4:
-                frame.draw<kLines>(d.mesh, d.vertex, Plain{d.material});
+                frame.draw(d.mesh, d.vertex, Plain{d.material}, kLines);
                 break;
             case 5:
-                frame.draw<kPaint>(d.mesh, d.vertex, Plain{d.material});
+                frame.draw(d.mesh, d.vertex, Plain{d.material}, kPaint);
                 break;
             case 6:
-                frame.draw<kAdditive>(d.mesh, d.vertex, WithHoles{d.material});
+                frame.draw(d.mesh, d.vertex, WithHoles{d.material}, kAdditive);
                 break;
             default:
-                frame.draw<kOver>(d.mesh, d.vertex, Plain{d.material});
+                frame.draw(d.mesh, d.vertex, Plain{d.material}, kOver);
                 break;
         }
     }

@@ -9,7 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "hlsl/derivatives.h"
-#include "lanes/active.h"
+#include "texture/shading_scope.h"
 #include "stability.h"
 #include "texture/sampler.h"
 
@@ -142,8 +142,8 @@ inline Int laneNumbers()
 // Lanes that count, for as long as it lives.
 struct ActiveLanes
 {
-    explicit ActiveLanes(unsigned lanes) { activeLanes = lanes; }
-    ~ActiveLanes() { activeLanes = kAllLanes; }
+    explicit ActiveLanes(unsigned lanes) { shading.activeLanes = lanes; }
+    ~ActiveLanes() { shading.activeLanes = kAllLanes; }
     ActiveLanes(const ActiveLanes&) = delete;
     ActiveLanes& operator=(const ActiveLanes&) = delete;
 };

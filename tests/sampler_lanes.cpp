@@ -119,18 +119,18 @@ TEST_CASE("sampler_lanes: lanes that do not count neither build levels nor chang
     const sampler2D s{.texture = &texture};
     const Float scale = perLane([](int i) { return i < 4 ? 0.0f : 20.0f; });  // all but the first quad want far levels
     const float2 zero = {Float(0.0f), Float(0.0f)}, far = {scale / 64.0f, Float(0.0f)};
-    fetchCounters = {};
+    shading.fetches = {};
     {
         const ActiveLanes counting(0xfu);
         (void)tex2Dgrad(s, evenly(1.0f), far, zero);
     }
     CHECK(texture.levelsBuilt() == 1);
-    CHECK(fetchCounters == FetchCounters{.trilinear = 4, .magnified = 4, .secondLevelSkipped = 4, .noDerivatives = 4});
+    CHECK(shading.fetches == FetchCounters{.trilinear = 4, .magnified = 4, .secondLevelSkipped = 4, .noDerivatives = 4});
     {
         const ActiveLanes counting(0u);
         (void)tex2Dgrad(s, evenly(1.0f), zero, zero);
     }
-    CHECK(fetchCounters.trilinear == 4);
+    CHECK(shading.fetches.trilinear == 4);
 }
 
 TEST_CASE("sampler_lanes: a sampler that never minifies never builds a level, nor one without mip levels")
@@ -156,9 +156,9 @@ TEST_CASE("sampler_lanes: counters count lanes, by kind")
     constexpr auto n = static_cast<std::uint64_t>(kLanes);
     const auto counted = [&](sampler2D s, float texels) {
         s.texture = s.texture ? s.texture : &texture;
-        fetchCounters = {};
+        shading.fetches = {};
         (void)tex2D(s, evenly(texels));
-        return fetchCounters;
+        return shading.fetches;
     };
     CHECK(counted({.filter = Filter::nearest}, 0.5f) == FetchCounters{.nearest = n, .magnified = n});
     CHECK(counted({.filter = Filter::bilinear}, 3.0f) == FetchCounters{.bilinear = n});
@@ -200,9 +200,9 @@ TEST_CASE("sampler_lanes: derivatives are taken only where a level of detail is 
             const ActiveLanes counting(active);
             const auto lanes = static_cast<std::uint64_t>(std::popcount(active));
             const auto without = [](const auto& sample) {
-                fetchCounters = {};
+                shading.fetches = {};
                 (void)sample();
-                return fetchCounters.noDerivatives;
+                return shading.fetches.noDerivatives;
             };
             const std::uint64_t expected = row.takes ? 0 : lanes;
             CHECK(without([&] { return tex2D(row.s, uv); }) == expected);
@@ -224,10 +224,10 @@ TEST_CASE("sampler_lanes: anisotropic sampling takes as many taps as the footpri
     };
     for (const Row& row : {Row{4, 1, 4}, Row{16, 1, 16}, Row{1e6f, 1, 16}, Row{1, 1e6f, 16}, Row{3, 2, 2}, Row{8, 8, 1},
                            Row{8, 0, 8}, Row{0.5f, 0, 1}, Row{2.5f, 0, 3}, Row{2.1f, 0, 3}}) {
-        fetchCounters = {};
+        shading.fetches = {};
         (void)tex2Dgrad(s, evenly(1.0f), {Float(row.xu / 64.0f), Float(0.0f)}, {Float(0.0f), Float(row.yv / 64.0f)});
         CAPTURE(row.xu);
-        CHECK(fetchCounters.taps == static_cast<std::uint64_t>(kLanes * row.taps));
+        CHECK(shading.fetches.taps == static_cast<std::uint64_t>(kLanes * row.taps));
     }
 }
 
@@ -266,7 +266,7 @@ TEST_CASE("sampler_lanes: one hash of everything, for any number of lanes, compi
         // A turned plane in perspective, 16x16 pixels, of which some count. The order of the hash is the pixels'.
         std::uint32_t image[16][16] = {};
         const float turn = static_cast<float>(round) * 0.37f, zoom = 0.003f * static_cast<float>(1 + round % 24);
-        fetchCounters = {};
+        shading.fetches = {};
         for (int top = 0; top < 16; top += kBlockHeight) {
             for (int left = 0; left < 16; left += kBlockWidth) {
                 const Float x = perLane([=](int i) { return static_cast<float>(left + laneX(i)); });
@@ -278,14 +278,14 @@ TEST_CASE("sampler_lanes: one hash of everything, for any number of lanes, compi
                 for (int i = 0; i < kLanes; ++i) {
                     std::uint32_t bits = 0;
                     for (int c = 0; c < 4; ++c) bits = bits * 31u + static_cast<std::uint32_t>(asInt(colour[c])[i]);
-                    image[top + laneY(i)][left + laneX(i)] = (activeLanes >> i & 1u) != 0 ? bits : 0u;
+                    image[top + laneY(i)][left + laneX(i)] = (shading.activeLanes >> i & 1u) != 0 ? bits : 0u;
                 }
             }
         }
         for (const auto& row : image) {
             for (const std::uint32_t bits : row) add(bits);
         }
-        total += fetchCounters;
+        total += shading.fetches;
     }
     add(total.nearest + 3 * total.bilinear + 5 * total.trilinear + 7 * total.anisotropic);
     add(total.magnified + 3 * total.taps + 5 * total.secondLevelSkipped);
@@ -304,10 +304,10 @@ TEST_CASE("sampler_lanes: tex2DWhere is tex2D where it is needed, 0 elsewhere, a
         const unsigned active = round % 3 == 0 ? kAllLanes : wholeQuads(random.bits() & kAllLanes);
         const ActiveLanes counting(active);
         const float4 all = tex2D(s, uv);
-        const FetchCounters before = fetchCounters;
+        const FetchCounters before = shading.fetches;
         const float4 some = tex2DWhere(Mask::fromBits(needed), s, uv);
-        CHECK(activeLanes == active);
-        CHECK(fetchCounters.trilinear - before.trilinear == static_cast<std::uint64_t>(std::popcount(needed & active)));
+        CHECK(shading.activeLanes == active);
+        CHECK(shading.fetches.trilinear - before.trilinear == static_cast<std::uint64_t>(std::popcount(needed & active)));
         for (int i = 0; i < kLanes; ++i) {
             if ((active >> i & 1u) == 0) continue;
             const bool wanted = (needed >> i & 1u) != 0;

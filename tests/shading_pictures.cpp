@@ -238,20 +238,20 @@ TEST_CASE("shading pictures: S-816 S-955 K passes of a K-th of a light add up to
     const Texture map = bumps();
     const Mesh sphere = makeSphere(24, 12);
     const ObjectTransform object(kClipFromWorld, kTurned);
-    const auto inPasses = [&](ColorFormat format, int passes) {
+    const auto inPasses = [&](Format format, int passes) {
         Framebuffer target = makeTarget(160, 120, format);
         Frame frame(target, {1, kDefaultTileSize});
         frame.clear(glm::vec4(0.0f));
         const Fragment part = {{.texture = &map}, 1.0f, 4.0f / static_cast<float>(passes), true, true};
         frame.draw(sphere, Vertex{object}, part);
-        for (int i = 1; i < passes; ++i) frame.draw<kAdditive>(sphere, Vertex{object}, part);
+        for (int i = 1; i < passes; ++i) frame.draw(sphere, Vertex{object}, part, kAdditive);
         frame.run();
         return target;
     };
-    const Framebuffer once = inPasses(ColorFormat::rgba32f, 1);
+    const Framebuffer once = inPasses(Format::rgba32f, 1);
     float relative = 0.0f;
     for (const int passes : {2, 16, 256}) {
-        const Framebuffer many = inPasses(ColorFormat::rgba32f, passes);
+        const Framebuffer many = inPasses(Format::rgba32f, passes);
         for (std::size_t i = 0; i < once.color32f().size(); ++i) {
             for (int c = 0; c < 3; ++c) {
                 const float expected = once.color32f()[i][c];
@@ -264,7 +264,7 @@ TEST_CASE("shading pictures: S-816 S-955 K passes of a K-th of a light add up to
     }
     measured("relative error by passes, in float", relative, 0x1p-24);
     // In 8 bits every pass rounds once: K / 2 codes, in linear and in sRGB targets.
-    for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::rgba8Srgb}) {
+    for (const Format format : {Format::rgba8, Format::rgba8Srgb}) {
         const Framebuffer one = inPasses(format, 1);
         for (const int passes : {2, 16}) {
             const Framebuffer many = inPasses(format, passes);
@@ -293,7 +293,7 @@ TEST_CASE("shading pictures: an additive pass meets the same depth in every pixe
         for (const Mesh* mesh : {&cube, &sphere}) frame.draw(*mesh, Vertex{a}, Fragment{.mapped = false, .lit = false});
         if (additive) {
             for (const Mesh* mesh : {&cube, &sphere})
-                frame.draw<kAdditive>(*mesh, Vertex{a}, Fragment{.mapped = false, .lit = false});
+                frame.draw(*mesh, Vertex{a}, Fragment{.mapped = false, .lit = false}, kAdditive);
         }
         frame.run();
     };
@@ -334,7 +334,7 @@ TEST_CASE("shading pictures: S-607 heights half a texel away do not depend on th
     REQUIRE(heights.has_value());
     const sampler2D map = {.texture = &*heights, .filter = Filter::bilinear, .mipmaps = false};
     const float half = 0.5f / 64.0f;
-    activeLanes = kAllLanes;
+    shading.activeLanes = kAllLanes;
     for (int x = 2; x < 62; ++x) {
         const float u = (static_cast<float>(x) + 0.5f) / 64.0f;
         const auto slope = [&](float at) {

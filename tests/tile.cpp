@@ -21,7 +21,7 @@ void fillWithNumbers(Framebuffer& target)
     for (float& z : target.depth()) z = 1.0f / static_cast<float>(n++);
 }
 
-const ColorFormat kFormats[] = {ColorFormat::rgba8, ColorFormat::rgba8Srgb, ColorFormat::rgba32f};
+const Format kFormats[] = {Format::rgba8, Format::rgba8Srgb, Format::rgba32f};
 const int kTileSizes[] = {16, 32, 64, 128};
 
 }  // namespace
@@ -29,8 +29,8 @@ const int kTileSizes[] = {16, 32, 64, 128};
 TEST_CASE("tile: load and store keep every bit (S-318, S-957)")
 {
     const int sizes[][2] = {{1, 1}, {1, 33}, {33, 1}, {3, 3}, {16, 16}, {17, 31}, {130, 70}};
-    for (const ColorFormat format : kFormats) {
-        for (const DepthStorage depth : {DepthStorage::transient, DepthStorage::keep}) {
+    for (const Format format : kFormats) {
+        for (const Store depth : {Store::discard, Store::keep}) {
             for (const int tileSize : kTileSizes) {
                 for (const auto& size : sizes) {
                     Framebuffer source = makeTarget(size[0], size[1], format, depth);
@@ -52,8 +52,8 @@ TEST_CASE("tile: load and store keep every bit (S-318, S-957)")
 
 TEST_CASE("tile: store and clear write their own rectangle only (S-957)")
 {
-    for (const ColorFormat format : kFormats) {
-        Framebuffer target = makeTarget(50, 50, format, DepthStorage::keep);
+    for (const Format format : kFormats) {
+        Framebuffer target = makeTarget(50, 50, format, Store::keep);
         fillWithNumbers(target);
         const Framebuffer before = target;
         const glm::vec4 color = {0.25f, 0.5f, 0.75f, 1.0f};
@@ -62,7 +62,7 @@ TEST_CASE("tile: store and clear write their own rectangle only (S-957)")
             for (int y = 0; y < 50; ++y) {
                 for (int x = 0; x < 50; ++x) {
                     const auto i = static_cast<std::size_t>(y * 50 + x);
-                    const bool same = format == ColorFormat::rgba32f ? target.color32f()[i] == before.color32f()[i]
+                    const bool same = format == Format::rgba32f ? target.color32f()[i] == before.color32f()[i]
                                                                      : target.color8()[i] == before.color8()[i];
                     const bool inside = x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
                     changed += !inside && (!same || target.depth()[i] != before.depth()[i]);
@@ -90,7 +90,7 @@ TEST_CASE("tile: store and clear write their own rectangle only (S-957)")
 TEST_CASE("tile: a cleared tile and a cleared rectangle are the same, also for colours that no format holds (S-951)")
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
-    for (const ColorFormat format : kFormats) {
+    for (const Format format : kFormats) {
         for (const glm::vec4& color : {glm::vec4(0.1f, 0.5f, 0.9f, 0.3f), glm::vec4(-1.0f, 2.0f, 1e30f, -0.0f),
                                        glm::vec4(nan, infinity, -infinity, nan)}) {
             Framebuffer a = makeTarget(20, 20, format), b = makeTarget(20, 20, format), c = makeTarget(20, 20, format);
@@ -107,18 +107,18 @@ TEST_CASE("tile: a cleared tile and a cleared rectangle are the same, also for c
             if (finite) CHECK(sameBits(a, c));
         }
     }
-    CHECK(packColor({0, 0, 0, 1}, ColorFormat::rgba8) == 0xff000000u);
-    CHECK(packColor({1, 0, 0, 0}, ColorFormat::rgba8) == 0x000000ffu);
-    CHECK(packColor({nan, infinity, -infinity, 2}, ColorFormat::rgba8) == 0xff00ff00u);
-    CHECK(packColor({0.5f, 0.5f, 0.5f, 0.5f}, ColorFormat::rgba8) == 0x80808080u);
-    CHECK(packColor({0.5f, 0.5f, 0.5f, 0.5f}, ColorFormat::rgba8Srgb) == 0x80bcbcbcu);  // alpha is linear
+    CHECK(packColor({0, 0, 0, 1}, Format::rgba8) == 0xff000000u);
+    CHECK(packColor({1, 0, 0, 0}, Format::rgba8) == 0x000000ffu);
+    CHECK(packColor({nan, infinity, -infinity, 2}, Format::rgba8) == 0xff00ff00u);
+    CHECK(packColor({0.5f, 0.5f, 0.5f, 0.5f}, Format::rgba8) == 0x80808080u);
+    CHECK(packColor({0.5f, 0.5f, 0.5f, 0.5f}, Format::rgba8Srgb) == 0x80bcbcbcu);  // alpha is linear
 }
 
 TEST_CASE("tile: blocks hold the pixels that their lanes name")
 {
-    Framebuffer target = makeTarget(64, 64, ColorFormat::rgba32f, DepthStorage::keep);
+    Framebuffer target = makeTarget(64, 64, Format::rgba32f, Store::keep);
     fillWithNumbers(target);
-    Tile tile(32, ColorFormat::rgba32f);
+    Tile tile(32, Format::rgba32f);
     tile.load(32, 0, target, 1.0f);
     int wrong = 0;
     for (int y = 0; y < 32; y += kBlockHeight) {
@@ -140,8 +140,8 @@ TEST_CASE("tile: blocks hold the pixels that their lanes name")
 
 TEST_CASE("tile: nothing of the tile before remains after clear and load")
 {
-    Framebuffer target = makeTarget(40, 40, ColorFormat::rgba8, DepthStorage::transient);
-    Tile tile(32, ColorFormat::rgba8);
+    Framebuffer target = makeTarget(40, 40, Format::rgba8, Store::discard);
+    Tile tile(32, Format::rgba8);
     tile.clear(0, 0, glm::vec4(1.0f), 0.25f);
     tile.load(32, 32, target, 0.75f);
     for (int block = 0; block < 32 * 32 / kLanes; ++block) {

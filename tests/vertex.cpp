@@ -245,8 +245,8 @@ TEST_CASE("vertex: every vertex of a mesh of several chunks is shaded once (S-11
     Frame frame(target, {3, 64});
     frame.clear(glm::vec4(0.0f));
     mesh.indices = {0, 63, 64 * 63};
-    frame.draw<kCount>(mesh, FromPixels({0, 0, 64, 64}), One{});
-    frame.draw<kCount>(mesh, FromPixels({0, 0, 64, 64}), One{});
+    frame.draw(mesh, FromPixels({0, 0, 64, 64}), One{}, kCount);
+    frame.draw(mesh, FromPixels({0, 0, 64, 64}), One{}, kCount);
     const Statistics statistics = frame.run();
     CHECK(statistics.verticesShaded == 2 * mesh.positions.size());
     checkInvariants(target, statistics);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -14,14 +15,16 @@
 
 namespace relief {
 
-// How a value gets from the vertices to a pixel.
+// How a value gets from the vertices to a pixel: linear in space, linear on the screen, or the first vertex's.
 enum class Interpolation
 {
     perspective,
-    affine
+    affine,
+    flat
 };
 
-// A value with a meaning. `Meaning` is the semantic's tag, `T` one of Float, float2, float3, float4.
+// A value with a meaning. `Meaning` is the semantic's tag, `T` one of Float, float2, float3, float4, Int, int2 ... int4.
+// A field that nobody assigns is 0.
 template <class Meaning, class T>
 struct Semantic : T
 {
@@ -29,9 +32,10 @@ struct Semantic : T
     static constexpr const char* kName = Meaning::kName;
     static constexpr int kIndex = Meaning::kIndex;
     static constexpr bool kIsPosition = Meaning::kIsPosition;
+    static constexpr bool kIsId = Meaning::kIsId;
     static constexpr Interpolation kInterpolation = Meaning::kInterpolation;
 
-    Semantic() = default;
+    Semantic() : T{} {}
     template <class U>
     requires std::convertible_to<U, T> Semantic(const U& source) : T(source) {}
 };
@@ -42,7 +46,18 @@ struct Plain
 {
     static constexpr int kIndex = 0;
     static constexpr bool kIsPosition = false;
+    static constexpr bool kIsId = false;  // counted by the pipeline, not read from a mesh
     static constexpr Interpolation kInterpolation = Interpolation::perspective;
+};
+struct SvVertexId : Plain
+{
+    static constexpr const char* kName = "SV_VertexID";
+    static constexpr bool kIsId = true;
+};
+struct SvInstanceId : Plain
+{
+    static constexpr const char* kName = "SV_InstanceID";
+    static constexpr bool kIsId = true;
 };
 struct SvPosition : Plain
 {
@@ -73,18 +88,18 @@ struct Color : Plain
     static constexpr const char* kName = "COLOR";
     static constexpr int kIndex = index;
 };
-template <class Meaning>
-struct NoPerspective : Meaning
+template <class Meaning, Interpolation interpolation>
+struct Interpolated : Meaning
 {
-    static constexpr Interpolation kInterpolation = Interpolation::affine;
+    static constexpr Interpolation kInterpolation = interpolation;
 };
 
-template <class T>
-struct Affine;
-template <class Meaning, class T>
-struct Affine<Semantic<Meaning, T>>
+template <class T, Interpolation interpolation>
+struct With;
+template <class Meaning, class T, Interpolation interpolation>
+struct With<Semantic<Meaning, T>, interpolation>
 {
-    using Type = Semantic<NoPerspective<Meaning>, T>;
+    using Type = Semantic<Interpolated<Meaning, interpolation>, T>;
 };
 
 }  // namespace semantic
@@ -93,6 +108,8 @@ struct Affine<Semantic<Meaning, T>>
 using POSITION = Semantic<semantic::Position, float4>;
 using NORMAL = Semantic<semantic::Normal, float3>;
 using TANGENT = Semantic<semantic::Tangent, float4>;  // xyz, and the binormal's sign in w
+using SV_VertexID = Semantic<semantic::SvVertexId, Int>;      // the vertex's number in its mesh
+using SV_InstanceID = Semantic<semantic::SvInstanceId, Int>;  // the instance's number in its draw
 
 // What it gives: clip space there; pixels in xy, depth in z and the interpolated w in the fragment program.
 using SV_POSITION = Semantic<semantic::SvPosition, float4>;
@@ -103,9 +120,12 @@ using TEXCOORD = Semantic<semantic::Texcoord<index>, T>;
 template <int index, class T>
 using COLOR = Semantic<semantic::Color<index>, T>;
 
-// HLSL's interpolation modifier: linear on the screen instead of in space.
+// HLSL's interpolation modifiers: linear on the screen instead of in space; the triangle's first vertex's value, which
+// integers must have.
 template <class S>
-using noperspective = typename semantic::Affine<S>::Type;
+using noperspective = typename semantic::With<S, Interpolation::affine>::Type;
+template <class S>
+using nointerpolation = typename semantic::With<S, Interpolation::flat>::Type;
 
 template <class T>
 inline constexpr int kComponents = 1;
@@ -127,11 +147,37 @@ inline Float& component(Float& v, int)
 {
     return v;
 }
+inline Int& component(Int& v, int)
+{
+    return v;
+}
 template <int size>
 Float& component(FloatN<size>& v, int i)
 {
     return v[i];
 }
+
+// A component as a word: what streams and interpolators hold, a float's bits or an integer's.
+inline void setWord(Float& component, Float word)
+{
+    component = word;
+}
+inline void setWord(Int& component, Float word)
+{
+    component = asInt(word);
+}
+inline Float wordOf(Float component)
+{
+    return component;
+}
+inline Float wordOf(Int component)
+{
+    return asFloat(component);
+}
+
+// Whether a value's components are integers.
+template <class T>
+inline constexpr bool kIsInteger = std::is_same_v<decltype(component(std::declval<T&>(), 0)), Int&>;
 
 namespace detail {
 
@@ -160,12 +206,36 @@ constexpr bool takes(std::index_sequence<i...>)
     };
 }
 
-inline constexpr int kMaxFields = 12;
+// A stand-in for a base class of T.
+template <class T>
+struct AnyBaseOf
+{
+    template <class Base>
+    requires(std::is_base_of_v<Base, T> && !std::is_same_v<Base, T>) operator Base() const;
+};
+
+// Whether field i of a T is an array: braces of two values then make it.
+template <class T, std::size_t... i>
+constexpr bool isArrayAfter(std::index_sequence<i...>)
+{
+    return requires
+    {
+        T{Any<i>{}..., {AnySemantic{}, AnySemantic{}}};
+    };
+}
+
+template <class T, std::size_t... i>
+constexpr bool hasArray(std::index_sequence<i...>)
+{
+    return (false || ... || isArrayAfter<T>(std::make_index_sequence<i>()));
+}
 
 }  // namespace detail
 
+inline constexpr int kMaxFields = 12;
+
 // The number of fields of a struct whose fields are all semantics (at most 12); -1 for anything else.
-template <class T, int n = detail::kMaxFields>
+template <class T, int n = kMaxFields>
 constexpr int fieldCount()
 {
     if constexpr (!std::is_aggregate_v<T> || n < 0) {
@@ -177,7 +247,11 @@ constexpr int fieldCount()
         } else {
             constexpr bool otherField = detail::takes<T, detail::Anything>(Fields{});
             constexpr bool tooMany = detail::takes<T, detail::AnySemantic>(Fields{});  // more than kMaxFields
-            return otherField || tooMany ? -1 : n;
+            constexpr bool hasBase = requires
+            {
+                T{detail::AnyBaseOf<T>{}};
+            };
+            return otherField || tooMany || hasBase || detail::hasArray<T>(Fields{}) ? -1 : n;
         }
     }
 }
@@ -243,6 +317,28 @@ template <class... Field>
 constexpr int positionCount(FieldList<Field...>)
 {
     return (0 + ... + (Field::kIsPosition ? 1 : 0));
+}
+
+// Whether a semantic with its index stands twice in a list of fields.
+template <class... Field>
+constexpr bool namesTwice(FieldList<Field...>)
+{
+    constexpr std::size_t count = sizeof...(Field);
+    const std::string_view names[count + 1] = {Field::kName..., ""};
+    const int indices[count + 1] = {Field::kIndex..., 0};
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            if (names[i] == names[k] && indices[i] == indices[k]) return true;
+        }
+    }
+    return false;
+}
+
+// Whether every integer among the interpolators is nointerpolation.
+template <class... Field>
+constexpr bool integersAreFlat(FieldList<Field...>)
+{
+    return (true && ... && (!kIsInteger<typename Field::Value> || Field::kInterpolation == Interpolation::flat));
 }
 
 // Whether a struct has a field of this semantic.

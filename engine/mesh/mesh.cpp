@@ -1,6 +1,7 @@
 // What makes a mesh safe to draw, and normals for meshes that come without.
 #include "mesh/mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -31,16 +32,40 @@ Expected<void> checkFinite(const Mesh& mesh, const char* what, std::span<const V
     return {};
 }
 
-Expected<void> checkIndices(const Mesh& mesh)
+Expected<void> checkStream(const Mesh& mesh, const VertexStream& stream)
 {
-    if (mesh.indices.size() % 3 != 0) {
+    const std::string name = "mesh '" + mesh.name + "': the stream " + stream.semantic + std::to_string(stream.index);
+    if (stream.components < 1 || stream.components > 4) {
+        return fail(name + " has " + std::to_string(stream.components) + " components; give it 1 to 4");
+    }
+    const std::size_t numbers = stream.floats.size() + stream.integers.size();
+    if (!stream.floats.empty() && !stream.integers.empty()) {
+        return fail(name + " holds floats and integers; leave one of the two out");
+    }
+    if (!stream.perInstance && numbers != mesh.positions.size() * static_cast<std::size_t>(stream.components)) {
+        return fail(name + " holds " + std::to_string(numbers) + " numbers for " +
+                    std::to_string(mesh.positions.size()) + " positions; give every vertex " +
+                    std::to_string(stream.components));
+    }
+    for (const float number : stream.floats) {
+        if (!std::isfinite(number)) return fail(name + " holds a number that is not finite; repair or rescale the mesh");
+    }
+    return {};
+}
+
+Expected<void> checkIndices(const Mesh& mesh, int indicesPerPrimitive)
+{
+    const auto perPrimitive = static_cast<std::size_t>(indicesPerPrimitive);
+    const std::string primitive = indicesPerPrimitive == 2 ? "line" : "triangle";
+    if (mesh.indices.size() % perPrimitive != 0) {
         return fail("mesh '" + mesh.name + "': " + std::to_string(mesh.indices.size()) +
-                    " indices are no whole number of triangles; give three per triangle");
+                    " indices are no whole number of " + primitive + "s; give " +
+                    (indicesPerPrimitive == 2 ? "two" : "three") + " per " + primitive);
     }
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
         if (mesh.indices[i] < mesh.positions.size()) continue;
-        return fail("mesh '" + mesh.name + "': triangle " + std::to_string(i / 3) + " uses vertex " +
-                    std::to_string(mesh.indices[i]) + " of " + std::to_string(mesh.positions.size()) +
+        return fail("mesh '" + mesh.name + "': " + primitive + " " + std::to_string(i / perPrimitive) +
+                    " uses vertex " + std::to_string(mesh.indices[i]) + " of " + std::to_string(mesh.positions.size()) +
                     "; vertices are counted from 0");
     }
     return {};
@@ -48,16 +73,45 @@ Expected<void> checkIndices(const Mesh& mesh)
 
 }  // namespace
 
-Expected<void> validate(const Mesh& mesh)
+std::vector<StreamView> streamsOf(const Mesh& mesh)
 {
+    std::vector<StreamView> streams;
+    const auto add = [&streams]<class Vector>(const char* semantic, const std::vector<Vector>& data) {
+        if (data.empty()) return;
+        streams.push_back({semantic, 0, Vector::length(), false, false,
+                           reinterpret_cast<const std::uint32_t*>(data.data()), data.size()});
+    };
+    add("POSITION", mesh.positions);
+    add("NORMAL", mesh.normals);
+    add("TEXCOORD", mesh.uvs);
+    add("TANGENT", mesh.tangents);
+    add("COLOR", mesh.colors);
+    for (const VertexStream& stream : mesh.streams) {
+        const bool isInteger = !stream.integers.empty();
+        const void* data = isInteger ? static_cast<const void*>(stream.integers.data()) : stream.floats.data();
+        const std::size_t numbers = isInteger ? stream.integers.size() : stream.floats.size();
+        const int components = std::clamp(stream.components, 1, 4);
+        streams.push_back({stream.semantic.c_str(), stream.index, components, isInteger, stream.perInstance,
+                           static_cast<const std::uint32_t*>(data), numbers / static_cast<std::size_t>(components)});
+    }
+    return streams;
+}
+
+Expected<void> validate(const Mesh& mesh, int indicesPerPrimitive)
+{
+    for (const VertexStream& stream : mesh.streams) {
+        if (Expected<void> checked = checkStream(mesh, stream); !checked) return checked;
+    }
     return checkLength(mesh, "normals", mesh.normals.size(), false)
         .and_then([&] { return checkLength(mesh, "uvs", mesh.uvs.size(), true); })
         .and_then([&] { return checkLength(mesh, "tangents", mesh.tangents.size(), true); })
-        .and_then([&] { return checkIndices(mesh); })
+        .and_then([&] { return checkLength(mesh, "colors", mesh.colors.size(), true); })
+        .and_then([&] { return checkIndices(mesh, indicesPerPrimitive); })
         .and_then([&] { return checkFinite<glm::vec3>(mesh, "position", mesh.positions); })
         .and_then([&] { return checkFinite<glm::vec3>(mesh, "normal", mesh.normals); })
         .and_then([&] { return checkFinite<glm::vec2>(mesh, "uv", mesh.uvs); })
-        .and_then([&] { return checkFinite<glm::vec4>(mesh, "tangent", mesh.tangents); });
+        .and_then([&] { return checkFinite<glm::vec4>(mesh, "tangent", mesh.tangents); })
+        .and_then([&] { return checkFinite<glm::vec4>(mesh, "color", mesh.colors); });
 }
 
 void computeNormals(Mesh& mesh)

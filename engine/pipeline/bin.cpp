@@ -58,11 +58,10 @@ void binLarge(TriangleChunk& chunk, std::uint32_t index, const TileGrid& grid, i
 
 }  // namespace
 
-void binTriangles(TriangleChunk& chunk, const TileGrid& grid, const DrawGeometry* const* draws, Statistics& statistics)
+void findTiles(TriangleChunk& chunk, std::uint32_t begin, const TileGrid& grid, const DrawGeometry* const* draws)
 {
     const auto total = static_cast<std::uint32_t>(chunk.triangles.size());
-    chunk.entries.reserve(total);
-    for (std::uint32_t next = 0; next < total;) {
+    for (std::uint32_t next = begin; next < total;) {
         const Triangle* const first = &chunk.triangles[next];
         std::uint32_t count = 1;
         while (count < kLanes && next + count < total && first[count].drawIndex == first->drawIndex) ++count;
@@ -78,8 +77,10 @@ void binTriangles(TriangleChunk& chunk, const TileGrid& grid, const DrawGeometry
             }
         }
     }
-    statistics.trianglesBinned += chunk.entries.size();
+}
 
+void sortByTile(TriangleChunk& chunk, const TileGrid& grid)
+{
     // A counting sort by tile; it keeps the order of equal keys. While it runs, binStart[tile + 1] is where the tile's
     // next triangle goes; in the end that is where the tile after it starts.
     // Neighbours are often of one tile, and are counted together: a sum in memory would wait for the one before.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "pipeline/geometry.h"
-#include "pipeline/statistics.h"
 
 namespace relief {
 
@@ -15,7 +14,10 @@ struct TileGrid
     int count() const { return width * height; }
 };
 
-// Bins all triangles of the chunk. `bounds[d]` are the pixels that draw d may touch.
-void binTriangles(TriangleChunk& chunk, const TileGrid& grid, const DrawGeometry* const* draws, Statistics& statistics);
+// Finds the tiles of the chunk's triangles from `first` on. `draws[d]` is draw d.
+void findTiles(TriangleChunk& chunk, std::uint32_t first, const TileGrid& grid, const DrawGeometry* const* draws);
+
+// Sorts what findTiles() found by tile.
+void sortByTile(TriangleChunk& chunk, const TileGrid& grid);
 
 }  // namespace relief

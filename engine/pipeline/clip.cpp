@@ -1,6 +1,8 @@
 #include "pipeline/clip.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 
 #include "pipeline/limits.h"
 
@@ -80,6 +82,10 @@ ClipVertex cut(Plane plane, const ClipLimits& limits, const ClipVertex& inside, 
     for (int i = 0; i < 4; ++i) v.position[i] = between(inside.position[i], outside.position[i], t);
     for (int k = 0; k < 3; ++k) v.weight[k] = between(inside.weight[k], outside.weight[k], t);
     putOnPlane(plane, limits, inside.position, outside.position, v.position);
+    // On screen the two ends lie w times farther from each other. An end behind the eye has a negative w, and the
+    // screen's line goes on beyond the other end.
+    const double s = t * static_cast<double>(outside.position.w) / static_cast<double>(v.position.w);
+    for (int k = 0; k < 3; ++k) v.onScreen[k] = inside.onScreen[k] + s * (outside.onScreen[k] - inside.onScreen[k]);
     return v;
 }
 
@@ -91,6 +97,20 @@ bool isLeftOut(Plane plane, const ClipLimits& limits)
     return !limits.depthClip && (plane == Plane::near || plane == Plane::far);
 }
 
+// What a new vertex has between the corners' values: from the corner that it is nearest to, and towards the others.
+float mixed(const ClipVertex& vertex, const float (&corner)[3], Interpolation interpolation)
+{
+    if (interpolation == Interpolation::flat) return corner[0];
+    const auto nearest = std::max_element(vertex.weight, vertex.weight + 3) - vertex.weight;
+    const std::ptrdiff_t b = (nearest + 1) % 3, c = (nearest + 2) % 3;
+    const float from = corner[nearest];
+    if (interpolation == Interpolation::perspective)
+        return from + vertex.weight[b] * (corner[b] - from) + vertex.weight[c] * (corner[c] - from);
+    const auto part = [&](std::ptrdiff_t k) { return vertex.onScreen[k] * (static_cast<double>(corner[k]) - from); };
+    constexpr double largest = std::numeric_limits<float>::max();
+    return static_cast<float>(std::clamp(from + part(b) + part(c), -largest, largest));
+}
+
 }  // namespace
 
 int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span<ClipVertex, kMaxClippedVertices> out)
@@ -99,8 +119,9 @@ int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span
     ClipVertex* polygon = buffers[0];
     ClipVertex* next = buffers[1];
     for (int k = 0; k < 3; ++k) {
-        polygon[k] = {corners[k], {0.0f, 0.0f, 0.0f}};
+        polygon[k] = {corners[k], {0.0f, 0.0f, 0.0f}, {0.0, 0.0, 0.0}};
         polygon[k].weight[k] = 1.0f;
+        polygon[k].onScreen[k] = 1.0;
     }
 
     int count = 3;
@@ -126,8 +147,8 @@ int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span
 
 bool clipLine(const glm::vec4 ends[2], const ClipLimits& limits, ClipVertex out[2])
 {
-    out[0] = {ends[0], {1.0f, 0.0f, 0.0f}};
-    out[1] = {ends[1], {0.0f, 1.0f, 0.0f}};
+    out[0] = {ends[0], {1.0f, 0.0f, 0.0f}, {1.0, 0.0, 0.0}};
+    out[1] = {ends[1], {0.0f, 1.0f, 0.0f}, {0.0, 1.0, 0.0}};
     for (const Plane plane : kPlanes) {
         if (isLeftOut(plane, limits)) continue;
         const double d0 = distance(plane, out[0].position, limits);
@@ -138,6 +159,18 @@ bool clipLine(const glm::vec4 ends[2], const ClipLimits& limits, ClipVertex out[
         if (d0 < 0.0) out[0] = d1 > 0.0 ? cut(plane, limits, out[1], d1, out[0], d0) : out[1];
     }
     return true;
+}
+
+std::uint32_t clippedVertex(const DrawGeometry& draw, const std::array<std::uint32_t, 3>& corners,
+                            const ClipVertex& vertex, TriangleChunk& chunk)
+{
+    const std::size_t first = chunk.clippedComponents.size();
+    for (std::uint32_t c = 0; c < draw.componentCount; ++c) {
+        float corner[3];
+        for (std::size_t k = 0; k < 3; ++k) corner[k] = componentsOf(draw, chunk, corners[k])[c];
+        chunk.clippedComponents.push_back(mixed(vertex, corner, draw.interpolations[c]));
+    }
+    return kClippedVertex | static_cast<std::uint32_t>(first);
 }
 
 }  // namespace relief

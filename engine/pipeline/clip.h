@@ -2,9 +2,10 @@
 // or reach beyond the guard band. All others keep their vertices and are cut off by their pixels alone.
 #pragma once
 
+#include <array>
 #include <span>
 
-#include <glm/vec4.hpp>
+#include "pipeline/geometry.h"
 
 namespace relief {
 
@@ -12,6 +13,7 @@ struct ClipVertex
 {
     glm::vec4 position;  // clip space
     float weight[3];     // this vertex = sum of weight[k] * the triangle's corner k
+    double onScreen[3];  // the same after the division by w: the weights of what is linear on the screen
 };
 
 struct ClipLimits
@@ -30,5 +32,10 @@ int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span
 // Cuts a line at the same planes, with the same arithmetic. The result is its two ends, in order, with weights of the
 // first two corners only; false if nothing is left.
 bool clipLine(const glm::vec4 ends[2], const ClipLimits& limits, ClipVertex out[2]);
+
+// A new vertex's number, with components between those of the corners: in space, on the screen, or the first corner's.
+// Equal values stay what they are, to the bit, and neighbours that share an edge get the same.
+std::uint32_t clippedVertex(const DrawGeometry& draw, const std::array<std::uint32_t, 3>& corners,
+                            const ClipVertex& vertex, TriangleChunk& chunk);
 
 }  // namespace relief

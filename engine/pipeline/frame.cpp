@@ -1,32 +1,30 @@
+// Running a frame: vertices, triangles and tiles, in rounds of tasks for the workers. A round ends before the next one
+// begins.
 #include "pipeline/frame.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <bit>
 #include <limits>
 
 #include "leave_out.h"
+#include "pipeline/frame_storage.h"
 #include "pipeline/line.h"
 #include "pipeline/setup.h"
+#include "pipeline/vertex.h"
 
 namespace relief {
 
 namespace {
 
-// A piece of front-end work: some vertices or primitives of one draw.
-struct Piece
-{
-    std::uint32_t draw, first, count;
-};
-
-// Cuts all draws' items into chunks of at most `size` items. A chunk may span several small draws.
+// Cuts all draws' items into chunks of at most `size` items. A chunk may span several small draws. Every piece begins at
+// a multiple of kLanes of its draw, whatever other draws there are: vertices have the same neighbours in every frame.
 template <class CountOf>
-std::vector<std::vector<Piece>> cut(const std::vector<std::unique_ptr<Draw>>& draws, std::uint32_t size,
-                                    CountOf countOf)
+std::vector<std::vector<Piece>> cut(const std::vector<Draw>& draws, std::uint32_t size, CountOf countOf)
 {
     std::vector<std::vector<Piece>> chunks;
     std::uint32_t room = 0;
     for (std::uint32_t d = 0; d < draws.size(); ++d) {
-        const std::uint32_t total = countOf(draws[d]->geometry);
+        const std::uint32_t total = countOf(draws[d].geometry);
         for (std::uint32_t first = 0; first < total;) {
             if (room == 0) {
                 chunks.emplace_back();
@@ -34,89 +32,50 @@ std::vector<std::vector<Piece>> cut(const std::vector<std::unique_ptr<Draw>>& dr
             }
             const std::uint32_t n = std::min(room, total - first);
             chunks.back().push_back({d, first, n});
-            room -= n;
+            room -= std::min(room, (n + 15) & ~15u);
             first += n;
         }
     }
     return chunks;
 }
 
+// As with what a program returns: NaN becomes something else, infinities the largest finite number.
+float finite(float value, float insteadOfNan)
+{
+    constexpr float largest = std::numeric_limits<float>::max();
+    return value != value ? insteadOfNan : std::clamp(value, -largest, largest);
+}
+
+Rectangle pixelsOf(const Viewport& v)
+{
+    return {v.x, v.y, v.x + v.width, v.y + v.height};
+}
+
 }  // namespace
 
-struct Frame::Storage
+// --- recording ---
+
+Frame::Storage::Storage(Framebuffer& framebuffer, const FrameOptions& options)
+    : target(framebuffer),
+      tileSize(std::clamp(static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(options.tileSize, 1)))), 16,
+                          kMaxTileSize)),
+      maxBinned(options.maxBinned),
+      workers(options.threads),
+      perWorker(static_cast<std::size_t>(workers.count()))
 {
-    // What a worker has for itself.
-    struct Worker
-    {
-        std::unique_ptr<Tile> tile;
-        std::vector<CoveredBlock> blocks;
-        Statistics statistics;
-    };
+    resetState();
+}
 
-    // One draw's vertices.
-    struct Vertices
-    {
-        Scratch<glm::vec4> clip;
-        Scratch<ScreenVertex> screen;
-        Scratch<std::uint16_t> codes;
-        Scratch<float> components;
-    };
-
-    Storage(Framebuffer& framebuffer, const FrameOptions& options)
-        : target(framebuffer), workers(options.threads), perWorker(static_cast<std::size_t>(workers.count()))
-    {
-        grid.tileSize = std::clamp(
-            static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(options.tileSize, 1)))), 16, kMaxTileSize);
-        grid.width = (target.width() + grid.tileSize - 1) / grid.tileSize;
-        grid.height = (target.height() + grid.tileSize - 1) / grid.tileSize;
-        resetState();
-    }
-
-    void resetState()
-    {
-        draws.clear();
-        clearColor.reset();
-        clearDepth = 1.0f;
-        viewport = {0, 0, target.width(), target.height()};
-        scissor = {0, 0, target.width(), target.height()};
-        frontCounterClockwise = false;
-    }
-
-    void shadeVertices();
-    void applyPoison();
-    void setUpAndBin();
-    Rectangle tilePixels(int tileIndex) const
-    {
-        const int x = tileIndex % grid.width * grid.tileSize, y = tileIndex / grid.width * grid.tileSize;
-        return {x, y, x + grid.tileSize, y + grid.tileSize};
-    }
-    // The room that rasterise() asks for: every triangle of a batch may cover all of a tile.
-    std::size_t coveredBlocks() const { return static_cast<std::size_t>(grid.tileSize * grid.tileSize) + 1; }
-    void drawTile(int tileIndex, Worker& worker);
-    void drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker);
-
-    Framebuffer& target;
-    Workers workers;
-    std::vector<Worker> perWorker;
-    TileGrid grid;
-
-    std::vector<std::unique_ptr<Draw>> draws;
-    std::vector<Vertices> vertices;
-    std::vector<TriangleChunk> chunks;
-    std::size_t usedChunks = 0;
-    std::optional<glm::vec4> clearColor;
-    float clearDepth = 1.0f;
-    Viewport viewport;
-    Rectangle scissor;
-    bool frontCounterClockwise = false;
-
-    // A component of a draw that is to be NaN at every vertex.
-    struct Poison
-    {
-        int draw, component;
-    };
-    std::optional<Poison> poison;
-};
+void Frame::Storage::resetState()
+{
+    draws.clear();
+    problem.clear();
+    usedChunks = 0;
+    clear = {};
+    viewport = {0, 0, target.width(), target.height()};
+    scissor = {0, 0, target.width(), target.height()};
+    frontCounterClockwise = false;
+}
 
 Frame::Frame(Framebuffer& target, const FrameOptions& options) : storage(std::make_unique<Storage>(target, options)) {}
 Frame::~Frame() = default;
@@ -128,13 +87,19 @@ void Frame::reset()
 
 void Frame::clear(const glm::vec4& color, float depth)
 {
-    // As with what a program returns: NaN becomes 0 (depth: 1), infinities the largest finite number.
-    const auto finite = [](float value, float insteadOfNan) {
-        constexpr float largest = std::numeric_limits<float>::max();
-        return value != value ? insteadOfNan : std::clamp(value, -largest, largest);
-    };
-    storage->clearColor = {finite(color.x, 0.0f), finite(color.y, 0.0f), finite(color.z, 0.0f), finite(color.w, 0.0f)};
-    storage->clearDepth = finite(depth, 1.0f);
+    clearColor(color);
+    clearDepth(depth);
+}
+
+void Frame::clearColor(const glm::vec4& color)
+{
+    storage->clear.color = {finite(color.x, 0.0f), finite(color.y, 0.0f), finite(color.z, 0.0f),
+                            finite(color.w, 0.0f)};
+}
+
+void Frame::clearDepth(float depth)
+{
+    storage->clear.depth = finite(depth, 1.0f);
 }
 
 void Frame::setViewport(const Viewport& viewport)
@@ -154,119 +119,218 @@ void Frame::setFrontCounterClockwise(bool counterClockwise)
     storage->frontCounterClockwise = counterClockwise;
 }
 
-void Frame::add(std::unique_ptr<Draw> draw, const Mesh& mesh)
+Expected<void> Frame::record(Expected<Draw> draw)
 {
     Storage& s = *storage;
+    if (!draw) {
+        if (s.problem.empty()) s.problem = draw.error().message;
+        return tl::unexpected(draw.error());
+    }
     DrawGeometry& g = draw->geometry;
-    g.indices = mesh.indices.data();
-    g.primitiveCount = static_cast<std::uint32_t>(mesh.indices.size() / (g.primitive == Primitive::lines ? 2 : 3));
-    g.vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
     g.viewport = s.viewport;
-    const Rectangle all = {0, 0, s.target.width(), s.target.height()};
-    const Viewport& v = s.viewport;
-    g.bounds = intersect(intersect(all, s.scissor), {v.x, v.y, v.x + v.width, v.y + v.height});
+    g.bounds = intersect({0, 0, s.target.width(), s.target.height()}, intersect(s.scissor, pixelsOf(s.viewport)));
     if (s.frontCounterClockwise && g.cull != Cull::none) g.cull = g.cull == Cull::back ? Cull::front : Cull::back;
     g.drawIndex = static_cast<std::uint32_t>(s.draws.size());
 
     // Nothing can be seen: no vertex is shaded.
     if (g.bounds.x0 >= g.bounds.x1 || g.bounds.y0 >= g.bounds.y1 || g.vertexCount == 0) g.primitiveCount = 0;
     if (g.primitiveCount == 0) g.vertexCount = 0;
-    s.draws.push_back(std::move(draw));
+    s.draws.push_back(std::move(*draw));
+    return {};
 }
+
+const std::string& Frame::problem() const
+{
+    return storage->problem;
+}
+
+int Frame::drawCount() const
+{
+    return static_cast<int>(storage->draws.size());
+}
+
+// --- running ---
 
 Statistics Frame::run()
 {
-    Storage& s = *storage;
-    for (Storage::Worker& worker : s.perWorker) worker.statistics = {};
-    s.shadeVertices();
-    if (s.poison) s.applyPoison();
-    s.setUpAndBin();
-    s.workers.run(s.grid.count(),
-                  [&](int tile, int worker) { s.drawTile(tile, s.perWorker[static_cast<std::size_t>(worker)]); });
+    return storage->run();
+}
+
+Statistics Frame::Storage::run()
+{
+    prepare();
+    shadeVertices();
+    cutPrimitives();
+    Part part = {0, 0, clear, TargetMemory(target)};
+    clearDiscarded(part);
+    for (;;) {
+        setUpAndBin(part.first);
+        while (part.last < usedChunks && chunks[part.last].isReady && chunks[part.last].rest.empty()) ++part.last;
+        const bool isWhole = part.last == usedChunks;
+        // A chunk that was too much for the room is drawn as far as it goes.
+        if (!isWhole && chunks[part.last].isReady) ++part.last;
+        if (!isWhole) keepDiscarded(part);
+        workers.run(grid.count(), [&](int tile, int worker) {
+            drawTile(part, tile, perWorker[static_cast<std::size_t>(worker)]);
+        });
+        if (isWhole) break;
+        startNextPart(part);
+    }
+    betweenParts.clear();
 
     Statistics total;
-    for (const Storage::Worker& worker : s.perWorker) total += worker.statistics;
-    total.draws = s.draws.size();
-    total.tiles = static_cast<std::uint64_t>(s.grid.count());
+    for (const Worker& worker : perWorker) total += worker.statistics;
+    total.draws = draws.size();
+    total.tiles = static_cast<std::uint64_t>(grid.count());
     return total;
+}
+
+// What a target does not keep is cleared in any case.
+void Frame::Storage::clearDiscarded(Part& part) const
+{
+    for (std::size_t i = 0; i < part.memory.words.size(); ++i) {
+        if (part.memory.words[i] != nullptr) continue;
+        const bool isDepth = part.memory.attachments[i].format == Format::depth32f;
+        if (isDepth && !part.clear.depth) part.clear.depth = 1.0f;
+        if (!isDepth && !part.clear.color) part.clear.color = glm::vec4(0.0f);
+    }
+}
+
+// Until the next part.
+void Frame::Storage::keepDiscarded(Part& part)
+{
+    const std::size_t pixels = static_cast<std::size_t>(target.width()) * static_cast<std::size_t>(target.height());
+    betweenParts.resize(part.memory.words.size());
+    for (std::size_t i = 0; i < betweenParts.size(); ++i) {
+        if (part.memory.words[i] != nullptr) continue;
+        const int words = wordsPerPixel(part.memory.attachments[i].format);
+        betweenParts[i].resize(pixels * static_cast<std::size_t>(words));
+        part.memory.words[i] = betweenParts[i].data();
+    }
+}
+
+// From the first chunk on that has something left; the others are done with.
+void Frame::Storage::startNextPart(Part& part)
+{
+    for (; part.first < part.last; ++part.first) {
+        Chunk& chunk = chunks[part.first];
+        binned -= static_cast<std::uint32_t>(chunk.entries.size());
+        chunk.clear();
+        chunk.isReady = false;
+        if (!chunk.rest.empty()) break;
+    }
+    part.last = part.first;
+    part.clear = {};
+}
+
+// The target may be another one than when the draws were recorded.
+void Frame::Storage::prepare()
+{
+    grid.tileSize = tileSize;
+    grid.width = (target.width() + grid.tileSize - 1) / grid.tileSize;
+    grid.height = (target.height() + grid.tileSize - 1) / grid.tileSize;
+    touched.assign(static_cast<std::size_t>(grid.count()), 0);
+    for (Draw& draw : draws) {
+        draw.geometry.bounds = intersect(draw.geometry.bounds, {0, 0, target.width(), target.height()});
+    }
+    for (Worker& worker : perWorker) {
+        worker.statistics = {};
+        if (worker.tile && !worker.tile->isFor(target.attachments())) worker.tile.reset();
+    }
 }
 
 void Frame::Storage::shadeVertices()
 {
     if (vertices.size() < draws.size()) vertices.resize(draws.size());
     for (std::size_t d = 0; d < draws.size(); ++d) {
-        DrawGeometry& g = draws[d]->geometry;
+        DrawGeometry& g = draws[d].geometry;
         g.clip = vertices[d].clip.reserve(g.vertexCount);
         g.screen = vertices[d].screen.reserve(g.vertexCount);
         g.codes = vertices[d].codes.reserve(g.vertexCount);
-        g.components = vertices[d].components.reserve(static_cast<std::size_t>(g.vertexCount) * g.componentCount);
+        g.components = vertices[d].components.reserve(static_cast<std::size_t>(g.vertexCount) * g.componentStride);
     }
     const auto pieces = cut(draws, kVerticesPerChunk, [](const DrawGeometry& g) { return g.vertexCount; });
     workers.run(static_cast<int>(pieces.size()), [&](int chunk, int worker) {
         for (const Piece& piece : pieces[static_cast<std::size_t>(chunk)]) {
-            draws[piece.draw]->shadeVertices(piece.first, piece.count);
+            relief::shadeVertices(draws[piece.draw], piece.first, piece.count);
             perWorker[static_cast<std::size_t>(worker)].statistics.verticesShaded += piece.count;
         }
     });
-}
-
-void Frame::Storage::applyPoison()
-{
-    const DrawGeometry& g = draws[static_cast<std::size_t>(poison->draw)]->geometry;
+    if (poison.draw < 0) return;
+    const DrawGeometry& g = draws[static_cast<std::size_t>(poison.draw)].geometry;
     for (std::size_t v = 0; v < g.vertexCount; ++v) {
-        g.components[v * g.componentCount + static_cast<std::size_t>(poison->component)] =
+        g.components[v * g.componentStride + static_cast<std::size_t>(poison.component)] =
             std::numeric_limits<float>::quiet_NaN();
     }
 }
 
-void Frame::Storage::setUpAndBin()
+void Frame::Storage::cutPrimitives()
 {
-    std::vector<const DrawGeometry*> geometry;
-    for (const auto& draw : draws) geometry.push_back(&draw->geometry);
-
-    const auto pieces = cut(draws, kTrianglesPerChunk, [](const DrawGeometry& g) { return g.primitiveCount; });
+    auto pieces = cut(draws, kTrianglesPerChunk, [](const DrawGeometry& g) { return g.primitiveCount; });
     usedChunks = pieces.size();
     if (chunks.size() < usedChunks) chunks.resize(usedChunks);
-    workers.run(static_cast<int>(usedChunks), [&](int index, int worker) {
-        TriangleChunk& chunk = chunks[static_cast<std::size_t>(index)];
-        Statistics& statistics = perWorker[static_cast<std::size_t>(worker)].statistics;
-        chunk.clear();
-        for (const Piece& piece : pieces[static_cast<std::size_t>(index)]) {
-            const bool lines = geometry[piece.draw]->primitive == Primitive::lines;
-            (lines ? setUpLines : setUpTriangles)(*geometry[piece.draw], piece.first, piece.count, chunk, statistics);
-        }
-        binTriangles(chunk, grid, geometry.data(), statistics);
+    for (std::size_t c = 0; c < usedChunks; ++c) {
+        chunks[c].clear();
+        chunks[c].isReady = false;
+        chunks[c].rest = std::move(pieces[c]);
+    }
+    binned = 0;
+}
+
+// All chunks from the first on that are not ready, as far as there is room. The first one has some in any case.
+void Frame::Storage::setUpAndBin(std::size_t firstChunk)
+{
+    std::vector<const DrawGeometry*> geometry;
+    for (const Draw& draw : draws) geometry.push_back(&draw.geometry);
+    workers.run(static_cast<int>(usedChunks - firstChunk), [&](int index, int worker) {
+        Chunk& chunk = chunks[firstChunk + static_cast<std::size_t>(index)];
+        if (chunk.isReady || (index != 0 && binned >= maxBinned)) return;
+        setUpAndBin(chunk, geometry.data(), perWorker[static_cast<std::size_t>(worker)].statistics);
     });
 }
 
-void Frame::Storage::drawTile(int tileIndex, Worker& worker)
+void Frame::Storage::setUpAndBin(Chunk& chunk, const DrawGeometry* const* geometry, Statistics& statistics)
 {
-    bool touched = false;
-    for (std::size_t c = 0; c < usedChunks && !touched; ++c) {
-        const auto tile = static_cast<std::size_t>(tileIndex);
-        touched = chunks[c].binStart[tile] != chunks[c].binStart[tile + 1];
+    bool isFull = false;
+    std::size_t done = 0;
+    while (!isFull && done < chunk.rest.size()) {
+        Piece& piece = chunk.rest[done];
+        const std::uint32_t count = std::min(piece.count, kPrimitivesPerCount);
+        const DrawGeometry& g = *geometry[piece.draw];
+        const std::size_t triangles = chunk.triangles.size(), pairs = chunk.entries.size();
+        (g.primitive == Primitive::lines ? setUpLines : setUpTriangles)(g, piece.first, count, chunk, statistics);
+        findTiles(chunk, static_cast<std::uint32_t>(triangles), grid, geometry);
+        const auto more = static_cast<std::uint32_t>(chunk.entries.size() - pairs);
+        statistics.trianglesBinned += more;
+        isFull = (binned += more) >= maxBinned;
+        piece.first += count;
+        piece.count -= count;
+        if (piece.count == 0) ++done;
     }
-    if (!touched && !clearColor) return;
+    chunk.rest.erase(chunk.rest.begin(), chunk.rest.begin() + static_cast<std::ptrdiff_t>(done));
+    chunk.isReady = true;
+    sortByTile(chunk, grid);
+}
+
+void Frame::Storage::drawTile(const Part& part, int tileIndex, Worker& worker)
+{
+    const auto tile = static_cast<std::size_t>(tileIndex);
+    bool isTouched = false;
+    for (std::size_t c = part.first; c < part.last && !isTouched; ++c) {
+        isTouched = chunks[c].binStart[tile] != chunks[c].binStart[tile + 1];
+    }
+    if (!isTouched && !part.clear.color && !part.clear.depth) return;
 
     const Rectangle pixels = tilePixels(tileIndex);
-    if (!worker.tile) worker.tile = std::make_unique<Tile>(grid.tileSize, target.format());
-    if (clearColor) {
-        if (leavesOut::tiles && !touched) {
-            clearRectangle(target, pixels, *clearColor, clearDepth);
-            return;
-        }
-        worker.tile->clear(pixels.x0, pixels.y0, *clearColor, clearDepth);
-    } else {
-        worker.tile->load(pixels.x0, pixels.y0, target, clearDepth);
-    }
-
-    ++worker.statistics.tilesTouched;
-    fetchCounters = {};
-    for (std::size_t c = 0; c < usedChunks; ++c) {
-        drawBin(chunks[c], tileIndex, worker);
-    }
-    worker.statistics.fetches += fetchCounters;
-    worker.tile->store(target);
+    if (leavesOut::tiles && !isTouched) return clearRectangle(part.memory, pixels, part.clear);
+    if (!worker.tile) worker.tile = std::make_unique<Tile>(grid.tileSize, target.attachments());
+    worker.tile->begin(pixels.x0, pixels.y0, part.memory, part.clear);
+    if (!touched[tile]) ++worker.statistics.tilesTouched;
+    touched[tile] = 1;
+    shading.fetches = {};
+    for (std::size_t c = part.first; c < part.last; ++c) drawBin(chunks[c], tileIndex, worker);
+    worker.statistics.fetches += shading.fetches;
+    worker.tile->store(part.memory);
 }
 
 void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker)
@@ -283,7 +347,7 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
             triangles[count] = &chunk.triangles[chunk.sorted[next]];
             if (triangles[count]->drawIndex != drawIndex) break;
         }
-        const Draw& draw = *draws[drawIndex];
+        const Draw& draw = draws[drawIndex];
         // Triangles of a bin lie anywhere in the chunk: the ones after these are asked for in time.
         for (std::uint32_t i = next; i < std::min<std::uint32_t>(last, next + kLanes); ++i)
             __builtin_prefetch(&chunk.triangles[chunk.sorted[i]]);
@@ -292,74 +356,8 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
         batch.set({triangles, count}, clip);
         CoveredBlock* const blocks = worker.blocks.data();
         const CoveredBlock* const end = rasterise(batch, clip, blocks);
-        if (end != blocks) draw.shadeBlocks({blocks, end}, batch, chunk, *worker.tile, worker.statistics);
+        if (end != blocks) shadeBlocks(draw, {blocks, end}, batch, chunk, *worker.tile, worker.statistics);
     }
-}
-
-int Frame::drawCount() const
-{
-    return static_cast<int>(storage->draws.size());
-}
-
-int Frame::componentCount(int draw) const
-{
-    return static_cast<int>(storage->draws[static_cast<std::size_t>(draw)]->geometry.componentCount);
-}
-
-std::string Frame::outputSignature(int draw) const
-{
-    return storage->draws[static_cast<std::size_t>(draw)]->outputSignature();
-}
-
-bool Frame::dependsOn(int draw, int component)
-{
-    const Framebuffer before = storage->target;
-    storage->poison = {draw, component};
-    run();
-    storage->poison.reset();
-    const bool same = storage->target.samePixels(before);
-    storage->target = before;
-    return !same;
-}
-
-float Frame::shadeAlone(std::uint64_t blocks) const
-{
-    // One block of every bin stands for the bin: the middle one of its first triangle.
-    struct Sample
-    {
-        CoveredBlock block;
-        const Triangle* triangle;
-        const TriangleChunk* chunk;
-    };
-    const Storage& s = *storage;
-    std::vector<Sample> samples;
-    std::vector<CoveredBlock> covered(s.coveredBlocks());
-    for (std::size_t c = 0; c < s.usedChunks; ++c) {
-        for (int tile = 0; tile < s.grid.count(); ++tile) {
-            const TriangleChunk& chunk = s.chunks[c];
-            const std::uint32_t first = chunk.binStart[static_cast<std::size_t>(tile)];
-            if (first == chunk.binStart[static_cast<std::size_t>(tile) + 1]) continue;
-            const Triangle& triangle = chunk.triangles[chunk.sorted[first]];
-            const Rectangle pixels = intersect(s.tilePixels(tile), s.draws[triangle.drawIndex]->geometry.bounds);
-            const Triangle* const one[] = {&triangle};
-            TriangleBatch batch;
-            batch.set(one, pixels);
-            const CoveredBlock* end = rasterise(batch, pixels, covered.data());
-            if (end == covered.data()) continue;
-            samples.push_back({covered[static_cast<std::size_t>(end - covered.data()) / 2], &triangle, &chunk});
-        }
-    }
-    float sum = 0.0f;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        // Shares that add up to `blocks`.
-        const std::uint64_t times = blocks * (i + 1) / samples.size() - blocks * i / samples.size();
-        const Sample& sample = samples[i];
-        const Draw& draw = *s.draws[sample.triangle->drawIndex];
-        TriangleBatch batch;
-        batch.set({&sample.triangle, 1}, draw.geometry.bounds);
-        sum += draw.shadeAlone(sample.block, batch, *sample.chunk, times);
-    }
-    return sum;
 }
 
 }  // namespace relief

@@ -3,21 +3,17 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
-#include "mesh/mesh.h"
-#include "pipeline/bin.h"
 #include "pipeline/draw.h"
-#include "pipeline/framebuffer.h"
-#include "pipeline/workers.h"
 
 namespace relief {
 
 struct FrameOptions
 {
-    int threads = 0;                  // 0: one per processor
+    int threads = 0;                  // 0: one per processor; at most 256
     int tileSize = kDefaultTileSize;  // 16, 32, 64 or 128 pixels
+    std::uint32_t maxBinned = kMaxBinned;  // pairs of a triangle and a tile kept at a time (limits.h)
 };
 
 class Frame
@@ -29,8 +25,11 @@ public:
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
 
-    // The target's content before the first draw; without it the frame draws onto what is there. Colour is linear.
+    // The target's content before the first draw. What is not cleared is drawn onto as it is; depth that the target does
+    // not keep is 1 then. Colour is linear.
     void clear(const glm::vec4& color, float depth = 1.0f);
+    void clearColor(const glm::vec4& color);
+    void clearDepth(float depth = 1.0f);
 
     // Where the next draws go: the whole target by default. The viewport may lie partly outside of the target; width
     // and height are limited to 16384. The scissor cuts off pixels and moves nothing.
@@ -41,105 +40,44 @@ public:
     // false by default.
     void setFrontCounterClockwise(bool counterClockwise);
 
-    // Records a draw. The programs are copied; the mesh and the textures must live until run() returns.
-    // VertexData is found from the vertex program's parameter.
-    template <RenderState state = RenderState{}, class VertexProgram, class FragmentProgram>
-    void draw(const Mesh& mesh, const VertexProgram& vertexProgram, const FragmentProgram& fragmentProgram);
+    // Records a draw of a mesh, or of a part of it, or of several instances. The programs are copied; the mesh and the
+    // textures must live until run() returns. VertexData is found from the vertex program's parameter; where the mesh
+    // does not have what it asks for, the draw is left out, and the error says why (problem() too).
+    template <class VertexProgram, class FragmentProgram>
+    Expected<void> draw(const Mesh& mesh, const VertexProgram& vertexProgram, const FragmentProgram& fragmentProgram,
+                        const RenderState& state = {}, const MeshPart& part = {})
+    {
+        if constexpr (detail::checkPrograms<VertexProgram, FragmentProgram>()) {
+            return record(makeDraw(detail::kPrograms<VertexProgram, FragmentProgram>, eraseProgram(vertexProgram),
+                                   eraseProgram(fragmentProgram), mesh, state, part));
+        }
+    }
 
-    // Runs what was recorded and says what happened. Running again gives the same frame again.
+    // A mesh that ends with the call would not be there any more when the frame runs.
+    template <class VertexProgram, class FragmentProgram>
+    void draw(Mesh&& mesh, const VertexProgram&, const FragmentProgram&, const RenderState& = {},
+              const MeshPart& = {}) = delete;
+
+    // Why the first draw that is left out is left out; empty where all of them are recorded.
+    const std::string& problem() const;
+
+    // Runs what was recorded, on the target as it is then, and says what happened. A frame that clears is the same every
+    // time; another one draws onto what the last run left.
     Statistics run();
 
-    // The recorded draws, and how many components (floats) each of them interpolates.
     int drawCount() const;
-    int componentCount(int draw) const;
-
-    // What the draw's vertex program hands on, as the table that Direct3D's compiler prints (hlsl/signature.h).
-    std::string outputSignature(int draw) const;
-
-    // Whether any pixel depends on an interpolated component: runs the frame again with NaN in it at every vertex.
-    // After run(); the target holds the same picture afterwards.
-    bool dependsOn(int draw, int component);
 
     // Forgets the recorded draws and the clear, for the next frame.
     void reset();
 
-    // What the frame's fragment programs cost by themselves: runs each of them `blocks` times in all, on the inputs of
-    // one block in every tile, without raster, depth test, blending and memory. After run(). Returns a sum of the
-    // results.
-    float shadeAlone(std::uint64_t blocks) const;
+    // What instruments.h looks into.
+    struct Storage;
+    Storage& internals() const { return *storage; }
 
 private:
-    void add(std::unique_ptr<Draw> draw, const Mesh& mesh);
+    Expected<void> record(Expected<Draw> draw);
 
-    struct Storage;
     std::unique_ptr<Storage> storage;
 };
-
-namespace detail {
-
-// The struct that a vertex program takes; void if it is no vertex program.
-template <class Operator>
-struct VertexDataOf
-{
-    using Type = void;
-};
-template <class Result, class Program, class VertexData>
-struct VertexDataOf<Result (Program::*)(VertexData) const>
-{
-    using Type = std::remove_cvref_t<VertexData>;
-};
-template <class VertexProgram>
-using VertexDataFor = typename VertexDataOf<decltype(&VertexProgram::operator())>::Type;
-
-// Whether two programs and their structs belong together. A mistake is one sentence in the compiler's output: every
-// check has a name, which clang prints, and what would fail for the same reason is not compiled after it.
-template <class VertexProgram, class FragmentProgram>
-constexpr bool checkPrograms()
-{
-    using VertexData = VertexDataFor<VertexProgram>;
-    constexpr bool isVertexProgram = !std::is_void_v<VertexData>;
-    static_assert(isVertexProgram, "a vertex program must have: Interpolators operator()(VertexData v) const");
-    if constexpr (isVertexProgram) {
-        using Interpolators = std::remove_cvref_t<std::invoke_result_t<const VertexProgram&, VertexData>>;
-        constexpr bool vertexDataIsSemantics = fieldCount<VertexData>() >= 0;
-        constexpr bool interpolatorsAreSemantics = fieldCount<Interpolators>() >= 0;
-        static_assert(vertexDataIsSemantics,
-                      "every field of VertexData must be a semantic: POSITION, NORMAL, TANGENT or TEXCOORD<0, float2>");
-        static_assert(interpolatorsAreSemantics,
-                      "every field of Interpolators (at most 12) must be a semantic: "
-                      "SV_POSITION, TEXCOORD<n, float4>, COLOR<n, float4>");
-        if constexpr (vertexDataIsSemantics && interpolatorsAreSemantics) {
-            constexpr bool meshHasVertexData = meshHasAll(FieldsOf<VertexData>{});
-            constexpr bool hasOnePosition = positionCount(FieldsOf<Interpolators>{}) == 1;
-            constexpr bool isFewEnough = interpolatedComponents(FieldsOf<Interpolators>{}) <= kMaxComponents;
-            constexpr bool takesInterpolators =
-                AFragmentProgramTakesTheInterpolatorsAndReturnsFloat4<FragmentProgram, Interpolators>;
-            static_assert(meshHasVertexData,
-                          "VertexData can hold POSITION, NORMAL, TANGENT and TEXCOORD<0, float2>: "
-                          "a mesh has nothing else");
-            static_assert(hasOnePosition,
-                          "Interpolators must have exactly one SV_POSITION: the vertex program's clip-space position");
-            static_assert(isFewEnough, "Interpolators may have at most 128 components");
-            static_assert(takesInterpolators,
-                          "the fragment program must take the Interpolators that the vertex "
-                          "program returns, and return float4");
-            return meshHasVertexData && hasOnePosition && isFewEnough && takesInterpolators;
-        }
-    }
-    return false;
-}
-
-}  // namespace detail
-
-template <RenderState state, class VertexProgram, class FragmentProgram>
-void Frame::draw(const Mesh& mesh, const VertexProgram& vertexProgram, const FragmentProgram& fragmentProgram)
-{
-    if constexpr (detail::checkPrograms<VertexProgram, FragmentProgram>()) {
-        using VertexData = detail::VertexDataFor<VertexProgram>;
-        add(std::make_unique<TypedDraw<state, VertexData, VertexProgram, FragmentProgram>>(mesh, vertexProgram,
-                                                                                           fragmentProgram),
-            mesh);
-    }
-}
 
 }  // namespace relief

@@ -1,39 +1,172 @@
 #include "pipeline/framebuffer.h"
 
+#include <algorithm>
 #include <cstring>
+#include <new>
 #include <string>
-
-#include "pipeline/limits.h"
 
 namespace relief {
 
-Expected<Framebuffer> Framebuffer::create(int width, int height, ColorFormat format, DepthStorage depthStorage)
+namespace {
+
+bool isDepth(const Attachment& attachment)
 {
+    return attachment.format == Format::depth32f;
+}
+
+int find(const std::vector<Attachment>& attachments, bool depth)
+{
+    const auto found = std::find_if(attachments.begin(), attachments.end(),
+                                    [depth](const Attachment& a) { return isDepth(a) == depth; });
+    return found == attachments.end() ? -1 : static_cast<int>(found - attachments.begin());
+}
+
+}  // namespace
+
+Expected<Framebuffer> Framebuffer::create(int width, int height, const std::vector<Attachment>& attachments)
+{
+    const std::string size = "size " + std::to_string(width) + "x" + std::to_string(height);
     if (width < 1 || height < 1 || width > kMaxTargetSize || height > kMaxTargetSize) {
-        return fail("size " + std::to_string(width) + "x" + std::to_string(height) +
-                    " is not possible: width and height must be 1 to " + std::to_string(kMaxTargetSize));
+        return fail(size + " is not possible: width and height must be 1 to " + std::to_string(kMaxTargetSize));
     }
+    const auto depths = std::count_if(attachments.begin(), attachments.end(), isDepth);
+    const auto colors = static_cast<std::ptrdiff_t>(attachments.size()) - depths;
+    if (attachments.empty() || depths > 1 || colors > 1) {
+        return fail("a target of " + std::to_string(colors) + " colour and " + std::to_string(depths) +
+                    " depth attachments is not possible: give it one of either kind, or one of each");
+    }
+
     Framebuffer target;
     target.mWidth = width;
     target.mHeight = height;
-    target.mFormat = format;
-    target.mDepthStorage = depthStorage;
-    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    if (format == ColorFormat::rgba32f) {
-        target.mColor32f.resize(pixels, glm::vec4(0.0f));
-    } else {
-        target.mColor8.resize(pixels);
+    target.mAttachments = attachments;
+    target.mWords.resize(attachments.size());
+    for (std::size_t i = 0; i < attachments.size(); ++i) {
+        const std::size_t count = target.wordCount(static_cast<int>(i));
+        if (count == 0) continue;
+        target.mWords[i].reset(static_cast<std::uint32_t*>(std::calloc(count, sizeof(std::uint32_t))));
+        if (!target.mWords[i]) {
+            return fail(size + " takes " + std::to_string(count / 262144) +
+                        " MiB for one attachment, which this machine does not have; choose a smaller size");
+        }
     }
-    if (depthStorage == DepthStorage::keep) target.mDepth.resize(pixels, 1.0f);
+    std::fill(target.depth().begin(), target.depth().end(), 1.0f);
     return target;
+}
+
+Expected<Framebuffer> Framebuffer::create(int width, int height, Format color, Store depth)
+{
+    return create(width, height, std::vector<Attachment>{{color, Store::keep}, {Format::depth32f, depth}});
+}
+
+Framebuffer::Framebuffer(const Framebuffer& other)
+    : mWidth(other.mWidth), mHeight(other.mHeight), mAttachments(other.mAttachments), mWords(other.mWords.size())
+{
+    for (std::size_t i = 0; i < mWords.size(); ++i) {
+        const std::size_t bytes = wordCount(static_cast<int>(i)) * sizeof(std::uint32_t);
+        if (bytes == 0) continue;
+        mWords[i].reset(static_cast<std::uint32_t*>(std::malloc(bytes)));
+        if (!mWords[i]) std::abort();  // as for every copy of a container, but without an exception
+        std::memcpy(mWords[i].get(), other.mWords[i].get(), bytes);
+    }
+}
+
+Framebuffer& Framebuffer::operator=(const Framebuffer& other)
+{
+    return *this = Framebuffer(other);
+}
+
+std::size_t Framebuffer::wordCount(int attachment) const
+{
+    const Attachment& a = mAttachments[static_cast<std::size_t>(attachment)];
+    if (a.store == Store::discard) return 0;
+    return static_cast<std::size_t>(mWidth) * static_cast<std::size_t>(mHeight) *
+           static_cast<std::size_t>(wordsPerPixel(a.format));
+}
+
+int Framebuffer::colorIndex() const
+{
+    return find(mAttachments, false);
+}
+int Framebuffer::depthIndex() const
+{
+    return find(mAttachments, true);
+}
+
+std::span<std::uint32_t> Framebuffer::words(int attachment)
+{
+    return {mWords[static_cast<std::size_t>(attachment)].get(), wordCount(attachment)};
+}
+std::span<const std::uint32_t> Framebuffer::words(int attachment) const
+{
+    return {mWords[static_cast<std::size_t>(attachment)].get(), wordCount(attachment)};
+}
+
+// The pixels of the attachment with this format.
+template <class Pixel>
+std::span<Pixel> Framebuffer::pixels(Format format) const
+{
+    for (std::size_t i = 0; i < mWords.size(); ++i) {
+        if (mAttachments[i].format != format) continue;
+        const std::size_t bytes = wordCount(static_cast<int>(i)) * sizeof(std::uint32_t);
+        return {reinterpret_cast<Pixel*>(mWords[i].get()), bytes / sizeof(Pixel)};
+    }
+    return {};
+}
+
+std::span<std::uint32_t> Framebuffer::color8()
+{
+    const auto linear = pixels<std::uint32_t>(Format::rgba8);
+    return linear.empty() ? pixels<std::uint32_t>(Format::rgba8Srgb) : linear;
+}
+std::span<const std::uint32_t> Framebuffer::color8() const
+{
+    const auto linear = pixels<const std::uint32_t>(Format::rgba8);
+    return linear.empty() ? pixels<const std::uint32_t>(Format::rgba8Srgb) : linear;
+}
+std::span<std::array<std::uint16_t, 4>> Framebuffer::color16f()
+{
+    return pixels<std::array<std::uint16_t, 4>>(Format::rgba16f);
+}
+std::span<const std::array<std::uint16_t, 4>> Framebuffer::color16f() const
+{
+    return pixels<const std::array<std::uint16_t, 4>>(Format::rgba16f);
+}
+std::span<float> Framebuffer::colorR32f()
+{
+    return pixels<float>(Format::r32f);
+}
+std::span<const float> Framebuffer::colorR32f() const
+{
+    return pixels<const float>(Format::r32f);
+}
+std::span<glm::vec4> Framebuffer::color32f()
+{
+    return pixels<glm::vec4>(Format::rgba32f);
+}
+std::span<const glm::vec4> Framebuffer::color32f() const
+{
+    return pixels<const glm::vec4>(Format::rgba32f);
+}
+std::span<float> Framebuffer::depth()
+{
+    return pixels<float>(Format::depth32f);
+}
+std::span<const float> Framebuffer::depth() const
+{
+    return pixels<const float>(Format::depth32f);
 }
 
 bool Framebuffer::samePixels(const Framebuffer& other) const
 {
-    const auto same = [](auto a, auto b) {
-        return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
-    };
-    return same(color8(), other.color8()) && same(color32f(), other.color32f()) && same(depth(), other.depth());
+    if (mWidth != other.mWidth || mHeight != other.mHeight || mWords.size() != other.mWords.size()) return false;
+    for (std::size_t i = 0; i < mWords.size(); ++i) {
+        const auto index = static_cast<int>(i);
+        const std::span<const std::uint32_t> mine = words(index), theirs = other.words(index);
+        if (mAttachments[i].format != other.mAttachments[i].format || mine.size() != theirs.size()) return false;
+        if (!mine.empty() && std::memcmp(mine.data(), theirs.data(), mine.size_bytes()) != 0) return false;
+    }
+    return true;
 }
 
 }  // namespace relief

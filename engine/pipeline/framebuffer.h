@@ -1,63 +1,110 @@
-// The render target: colour in one of three formats, and depth as 32-bit floats. Row 0 is the top row.
+// The render target: a list of attachments, each a picture of one format. Row 0 is the top row.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include <glm/vec4.hpp>
 
 #include "error.h"
+#include "pipeline/limits.h"
 
 namespace relief {
 
-enum class ColorFormat
+enum class Format
 {
     rgba8,      // UNORM, written as it is
     rgba8Srgb,  // UNORM, encoded from linear colour when written, decoded when blended with
+    rgba16f,    // halves: within +-65504, rounded to nearest
+    r32f,       // red alone
     rgba32f,
+    depth32f
 };
 
-// A transient depth buffer lives in the tiles only, while they are drawn: nothing is written to memory. Keep it when
-// something reads it afterwards, or when a later frame draws on without clearing.
-enum class DepthStorage
+// 32-bit words of a pixel.
+constexpr int wordsPerPixel(Format format)
 {
-    transient,
-    keep
+    return format == Format::rgba32f ? 4 : format == Format::rgba16f ? 2 : 1;
+}
+
+// What becomes of an attachment when a frame has run. One that is discarded lives in the tiles only, while they are
+// drawn: it takes no memory, and every frame clears it. Keep it when something reads it afterwards, or when a later
+// frame draws on without clearing.
+enum class Store
+{
+    keep,
+    discard
+};
+
+struct Attachment
+{
+    Format format = Format::rgba8Srgb;
+    Store store = Store::keep;
 };
 
 class Framebuffer
 {
 public:
-    // Width and height 1 ... 16384; anything else is an error.
-    static Expected<Framebuffer> create(int width, int height, ColorFormat format = ColorFormat::rgba8Srgb,
-                                        DepthStorage depthStorage = DepthStorage::transient);
+    // At most one colour and one depth attachment, in any order. Width and height 1 ... 16384. Colours are 0 at first,
+    // depths 1. An error for other sizes and lists, and where the memory cannot be had.
+    static Expected<Framebuffer> create(int width, int height, const std::vector<Attachment>& attachments);
+
+    // The usual: a colour that is kept, and a depth.
+    static Expected<Framebuffer> create(int width, int height, Format color = Format::rgba8Srgb,
+                                        Store depth = Store::discard);
+
+    Framebuffer(const Framebuffer& other);
+    Framebuffer(Framebuffer&&) noexcept = default;
+    Framebuffer& operator=(const Framebuffer& other);
+    Framebuffer& operator=(Framebuffer&&) noexcept = default;
 
     int width() const { return mWidth; }
     int height() const { return mHeight; }
-    ColorFormat format() const { return mFormat; }
-    DepthStorage depthStorage() const { return mDepthStorage; }
 
-    // Row by row, no padding. The 8-bit formats: R, G, B, A from the lowest byte up; empty for rgba32f. And so on.
-    std::span<std::uint32_t> color8() { return mColor8; }
-    std::span<const std::uint32_t> color8() const { return mColor8; }
-    std::span<glm::vec4> color32f() { return mColor32f; }
-    std::span<const glm::vec4> color32f() const { return mColor32f; }
-    std::span<float> depth() { return mDepth; }  // empty when transient
-    std::span<const float> depth() const { return mDepth; }
+    const std::vector<Attachment>& attachments() const { return mAttachments; }
 
-    // Whether colour and depth are equal, bit by bit.
+    // The attachment of that kind, -1 where there is none.
+    int colorIndex() const;
+    int depthIndex() const;
+
+    // An attachment's pixels, wordsPerPixel() each, row by row, no padding; empty where it is discarded.
+    std::span<std::uint32_t> words(int attachment);
+    std::span<const std::uint32_t> words(int attachment) const;
+
+    // The same as what they are. Empty where there is no such attachment, or it is discarded.
+    std::span<std::uint32_t> color8();  // both 8-bit formats: R, G, B, A from the lowest byte up
+    std::span<std::array<std::uint16_t, 4>> color16f();
+    std::span<float> colorR32f();
+    std::span<glm::vec4> color32f();
+    std::span<float> depth();
+    std::span<const std::uint32_t> color8() const;
+    std::span<const std::array<std::uint16_t, 4>> color16f() const;
+    std::span<const float> colorR32f() const;
+    std::span<const glm::vec4> color32f() const;
+    std::span<const float> depth() const;
+
+    // Whether all that is kept is equal, bit by bit.
     bool samePixels(const Framebuffer& other) const;
 
 private:
+    struct Free
+    {
+        void operator()(std::uint32_t* words) const { std::free(words); }
+    };
+    using Words = std::unique_ptr<std::uint32_t[], Free>;
+
     Framebuffer() = default;
+    std::size_t wordCount(int attachment) const;
+    template <class Pixel>
+    std::span<Pixel> pixels(Format format) const;
 
     int mWidth = 0, mHeight = 0;
-    ColorFormat mFormat = ColorFormat::rgba8Srgb;
-    DepthStorage mDepthStorage = DepthStorage::transient;
-    std::vector<std::uint32_t> mColor8;
-    std::vector<glm::vec4> mColor32f;
-    std::vector<float> mDepth;
+    std::vector<Attachment> mAttachments;
+    std::vector<Words> mWords;  // of each attachment
 };
 
 }  // namespace relief

@@ -8,6 +8,7 @@
 
 #include <glm/vec4.hpp>
 
+#include "hlsl/semantics.h"
 #include "pipeline/limits.h"
 #include "pipeline/render_state.h"
 
@@ -78,18 +79,26 @@ enum : std::uint16_t
 };
 }
 
-// One draw's vertices and the state that the front end needs.
+// One draw's vertices and the state that the front end needs. The vertices of all instances stand one instance after
+// the other, and so do the primitives.
 struct DrawGeometry
 {
-    const std::uint32_t* indices = nullptr;  // three a triangle, two a line
-    std::uint32_t primitiveCount = 0;
-    std::uint32_t vertexCount = 0;
-    std::uint32_t componentCount = 0;  // floats to interpolate per vertex
+    const std::uint32_t* indices = nullptr;  // three a triangle, two a line; of one instance
+    std::uint32_t primitiveCount = 0;        // of all instances
+    std::uint32_t vertexCount = 0;           // of all instances
+    std::uint32_t primitivesPerInstance = 0;
+    std::uint32_t verticesPerInstance = 0;
+    std::uint32_t firstVertex = 0;  // the mesh's vertex that an instance begins with
+
+    std::uint32_t componentCount = 0;   // words to interpolate per vertex
+    std::uint32_t componentStride = 0;  // and from one vertex to the next: a multiple of four
+    const Interpolation* interpolations = nullptr;  // componentCount of them
+    bool hasFlat = false;                           // any of them
 
     glm::vec4* clip = nullptr;       // per vertex
     ScreenVertex* screen = nullptr;  // per vertex
     std::uint16_t* codes = nullptr;  // per vertex
-    float* components = nullptr;     // componentCount per vertex
+    float* components = nullptr;     // componentStride per vertex
 
     Viewport viewport;
     Rectangle bounds;  // viewport, scissor and target: no pixel outside is touched
@@ -139,7 +148,28 @@ struct TriangleChunk
 inline const float* componentsOf(const DrawGeometry& draw, const TriangleChunk& chunk, std::uint32_t vertex)
 {
     if ((vertex & kClippedVertex) != 0) return chunk.clippedComponents.data() + (vertex & ~kClippedVertex);
-    return draw.components + static_cast<std::size_t>(vertex) * draw.componentCount;
+    return draw.components + static_cast<std::size_t>(vertex) * draw.componentStride;
+}
+
+// The vertices that primitives first ... first + count - 1 are made of, `corners` each: the mesh's own indices, or, for
+// instances and parts of a mesh, `room` filled with numbers in the draw's arrays (kNoVertex where there is none).
+inline constexpr std::uint32_t kNoVertex = 0xffffffffu;
+
+inline const std::uint32_t* cornersOf(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count,
+                                      std::uint32_t corners, std::uint32_t* room)
+{
+    if (draw.verticesPerInstance == draw.vertexCount && draw.firstVertex == 0)
+        return draw.indices + static_cast<std::size_t>(first) * corners;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t instance = (first + i) / draw.primitivesPerInstance;
+        const std::size_t primitive = (first + i) % draw.primitivesPerInstance;
+        for (std::uint32_t k = 0; k < corners; ++k) {
+            const std::uint32_t vertex = draw.indices[primitive * corners + k] - draw.firstVertex;
+            room[i * corners + k] =
+                vertex < draw.verticesPerInstance ? instance * draw.verticesPerInstance + vertex : kNoVertex;
+        }
+    }
+    return room;
 }
 
 }  // namespace relief

@@ -6,6 +6,8 @@
 //     p_k = E_k / w_k / sum(E_j / w_j)     linear in space: everything else
 #pragma once
 
+#include <bit>
+
 #include "hlsl/semantics.h"
 #include "lanes/double.h"
 #include "pipeline/edge_function.h"
@@ -16,15 +18,64 @@ namespace relief {
 // One number for all lanes, as it is read fastest: SSE2 has no instruction that spreads a number while it is loaded.
 using Broadcast = std::conditional_t<kLanes == 4, Float, float>;
 
-// The edge values of one block, rounded to float, and what follows from them.
+// A triangle's edge functions at the pixels of a block: exact integers, rounded to float once.
+class TriangleEdges
+{
+public:
+    // The batch must live as long.
+    void set(const TriangleBatch& batch, int lane)
+    {
+        small = (batch.small >> lane & 1u) != 0;
+        for (int k = 0; k < 3; ++k) {
+            if (small) {
+                stepX[k] = batch.stepX[k][lane];
+                stepY[k] = batch.stepY[k][lane];
+                smallLanes[k] = laneXs() * stepX[k] + laneYs() * stepY[k] + batch.origin[k][lane];
+            } else {
+                const EdgeFunction edge = edgeOf(*batch.triangle[lane], k);
+                // stepX * 3 + stepY * 3 stays below 2^27; times 256 it needs the double.
+                const Int steps = laneXs() * edge.stepX + laneYs() * edge.stepY;
+                largeLanes[k] = Double(steps) * Double(kSubpixels) + Double(static_cast<double>(edge.origin));
+                largeStepX[k] = static_cast<double>(edge.stepX) * kSubpixels;
+                largeStepY[k] = static_cast<double>(edge.stepY) * kSubpixels;
+            }
+        }
+    }
+
+    // Of the block whose upper left pixel is (x, y).
+    void at(int x, int y, Float (&edge)[3]) const
+    {
+        for (int k = 0; k < 3; ++k) {
+            if (small) {
+                const std::uint32_t steps = static_cast<std::uint32_t>(stepX[k]) * static_cast<std::uint32_t>(x) +
+                                            static_cast<std::uint32_t>(stepY[k]) * static_cast<std::uint32_t>(y);
+                edge[k] = Float(smallLanes[k] + static_cast<std::int32_t>(steps));
+            } else {
+                edge[k] = toFloat(largeLanes[k] + Double(largeStepX[k] * x + largeStepY[k] * y));
+            }
+        }
+    }
+
+private:
+    bool small;
+
+    // E at the pixels of the block at (0, 0), and its steps from one pixel to the next: modulo 2^32 where the triangle
+    // is small, or exact in doubles.
+    Int smallLanes[3];
+    std::int32_t stepX[3], stepY[3];
+    Double largeLanes[3];
+    double largeStepX[3], largeStepY[3];
+};
+
+// What follows from the edge values of one block.
 struct BlockWeights
 {
     Float linear1, linear2;            // b_1, b_2
     Float perspective1, perspective2;  // p_1, p_2
-    Float inverseSum;                  // 1 / sum(E_j / w_j), w scaled by TriangleWeights::scale
+    Float inverseSum;                  // 1 / sum(E_j / w_j), w scaled by TriangleBatch::scale
 };
 
-// One triangle of a batch, which must live as long.
+// How much of each corner a pixel has. Of one triangle of a batch, which must live as long.
 class TriangleWeights
 {
 public:
@@ -38,34 +89,17 @@ public:
         z0 = batch->z0[lane];
         dz1 = batch->dz1[lane];
         dz2 = batch->dz2[lane];
-        small = (batch->small >> lane & 1u) != 0;
-        for (int k = 0; k < 3; ++k) {
-            invW[k] = batch->invW[k][lane];
-            if (small) {
-                stepX[k] = batch->stepX[k][lane];
-                stepY[k] = batch->stepY[k][lane];
-                smallLanes[k] = laneXs() * stepX[k] + laneYs() * stepY[k] + batch->origin[k][lane];
-            } else {
-                const EdgeFunction edge = edgeOf(*batch->triangle[lane], k);
-                // stepX * 3 + stepY * 3 stays below 2^27; times 256 it needs the double.
-                const Int steps = laneXs() * edge.stepX + laneYs() * edge.stepY;
-                largeLanes[k] = Double(steps) * Double(kSubpixels) + Double(static_cast<double>(edge.origin));
-                largeStepX[k] = static_cast<double>(edge.stepX) * kSubpixels;
-                largeStepY[k] = static_cast<double>(edge.stepY) * kSubpixels;
-            }
-        }
+        for (int k = 0; k < 3; ++k) invW[k] = batch->invW[k][lane];
     }
 
-    // Of the block whose upper left pixel is (x, y). `covered` lanes lie in the triangle.
-    BlockWeights at(int x, int y, unsigned covered) const
+    // Of a block with these edge values. `covered` lanes lie in the triangle. What is not read, the compiler leaves out.
+    BlockWeights of(const Float (&edge)[3], unsigned covered) const
     {
-        Float e[3];
-        for (int k = 0; k < 3; ++k) e[k] = edgeValue(k, x, y);
-
         BlockWeights w;
-        w.linear1 = e[1] * inverseArea;
-        w.linear2 = e[2] * inverseArea;
+        w.linear1 = edge[1] * inverseArea;
+        w.linear2 = edge[2] * inverseArea;
 
+        Float e[3] = {edge[0], edge[1], edge[2]};
         Float sum = e[0] * invW[0] + e[1] * invW[1] + e[2] * invW[2];
         if (covered != kAllLanes) [[unlikely]] {
             // Beyond the triangle the sum, which is 1/w, may reach zero: behind the horizon. There, attributes come
@@ -83,10 +117,20 @@ public:
         return w;
     }
 
-    // Linear on screen, and never outside 0 ... 1 and the corners' range, so that coarse depth bounds are safe.
-    Float depth(const BlockWeights& w) const
+    // Depth is linear on screen.
+    Float depthPlane(const Float (&edge)[3]) const
     {
-        return clamp(z0 + w.linear1 * dz1 + w.linear2 * dz2, nearest, farthest);
+        return z0 + edge[1] * inverseArea * dz1 + edge[2] * inverseArea * dz2;
+    }
+    // What is tested and stored is never outside 0 ... 1 and the corners' range, so that coarse depth bounds are safe.
+    Float depth(const Float (&edge)[3]) const { return clamp(depthPlane(edge), nearest, farthest); }
+
+    // SV_POSITION.z: the depth that is stored, where the triangle covers the pixel; beyond it the plane goes on, and
+    // with it the difference between the neighbours.
+    Float positionZ(const Float (&edge)[3], unsigned covered) const
+    {
+        const Float plane = depthPlane(edge), stored = clamp(plane, nearest, farthest);
+        return covered == kAllLanes ? stored : select(Mask::fromBits(covered), stored, plane);
     }
 
     // Clip-space w at the pixels.
@@ -95,31 +139,21 @@ public:
     float nearest, farthest;  // the corners' depths, within 0 ... 1
 
 private:
-    // E at the pixels of a block: an exact integer either way, then rounded once.
-    Float edgeValue(int k, int x, int y) const
-    {
-        if (small) {
-            const std::uint32_t steps = static_cast<std::uint32_t>(stepX[k]) * static_cast<std::uint32_t>(x) +
-                                        static_cast<std::uint32_t>(stepY[k]) * static_cast<std::uint32_t>(y);
-            return Float(smallLanes[k] + static_cast<std::int32_t>(steps));
-        }
-        return toFloat(largeLanes[k] + Double(largeStepX[k] * x + largeStepY[k] * y));
-    }
-
     const TriangleBatch* batch;
     int lane;
-    bool small;
-
-    // E at the pixels of the block at (0, 0), and its steps from one pixel to the next: modulo 2^32 where the triangle
-    // is small, or exact in doubles.
-    Int smallLanes[3];
-    std::int32_t stepX[3], stepY[3];
-    Double largeLanes[3];
-    double largeStepX[3], largeStepY[3];
-
-    // The batch's, of this triangle.
-    Broadcast invW[3], inverseArea, z0, dz1, dz2;
+    Broadcast invW[3], inverseArea, z0, dz1, dz2;  // the batch's, of this triangle
 };
+
+// A word in all lanes as it is: it may be an integer whose bits are a signalling NaN's.
+template <class T = Broadcast>
+T broadcastBits(float word)
+{
+    if constexpr (std::is_same_v<T, float>) {
+        return word;
+    } else {
+        return asFloat(Int(std::bit_cast<std::int32_t>(word)));
+    }
+}
 
 // The components of a triangle's corners, ready to be weighted.
 template <int components>
@@ -130,7 +164,7 @@ struct CornerComponents
     void set(const float* a, const float* b, const float* c)
     {
         for (int i = 0; i < components; ++i) {
-            first[i] = a[i];
+            first[i] = broadcastBits(a[i]);
             toSecond[i] = b[i] - a[i];
             toThird[i] = c[i] - a[i];
         }
@@ -144,26 +178,36 @@ struct CornerComponents
     {
         return first[i] + w.linear1 * toSecond[i] + w.linear2 * toThird[i];
     }
+    Float flat(int i) const
+    {
+        if constexpr (kLanes == 4) {
+            return first[i];
+        } else {
+            return broadcastBits<Float>(first[i]);
+        }
+    }
 };
 
 // Fills in a fragment program's input. What the program does not read, the compiler leaves out.
 template <class Interpolators, int components>
 Interpolators interpolate(const TriangleWeights& triangle, const CornerComponents<components>& corners,
-                          const BlockWeights& w, int x, int y, Float depth)
+                          const Float (&edge)[3], unsigned covered, int x, int y)
 {
+    const BlockWeights w = triangle.of(edge, covered);
     Interpolators result;
     int slot = 0;
     forEachField(result, [&]<class Field>(Field& field) {
         if constexpr (Field::kIsPosition) {
             field.x = Float(laneXs() + x) + 0.5f;
             field.y = Float(laneYs() + y) + 0.5f;
-            field.z = depth;
+            field.z = triangle.positionZ(edge, covered);
             field.w = triangle.clipW(w);
         } else {
             for (int c = 0; c < kComponents<typename Field::Value>; ++c, ++slot) {
-                component(static_cast<typename Field::Value&>(field), c) =
-                    Field::kInterpolation == Interpolation::perspective ? corners.perspective(slot, w)
-                                                                        : corners.affine(slot, w);
+                const Float value = Field::kInterpolation == Interpolation::perspective ? corners.perspective(slot, w)
+                                    : Field::kInterpolation == Interpolation::affine    ? corners.affine(slot, w)
+                                                                                        : corners.flat(slot);
+                setWord(component(static_cast<typename Field::Value&>(field), c), value);
             }
         }
     });

@@ -37,6 +37,12 @@ inline constexpr int kMaxTileSize = 128;
 inline constexpr std::uint32_t kVerticesPerChunk = 2048;
 inline constexpr std::uint32_t kTrianglesPerChunk = 4096;
 
+// Pairs of a triangle and a tile that a frame keeps at a time, 12 bytes each: 48 MiB. A frame with more is run in parts,
+// one after the other, with the same result. They are counted after every so many primitives, so each thread may go
+// beyond the limit by as many times the number of tiles.
+inline constexpr std::uint32_t kMaxBinned = 1u << 22;
+inline constexpr std::uint32_t kPrimitivesPerCount = 256;
+
 // The interpolated components (floats) of one vertex: D3D's 32 registers of four.
 inline constexpr int kMaxComponents = 128;
 

@@ -1,5 +1,7 @@
 #include "pipeline/line.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include "pipeline/clip.h"
@@ -21,16 +23,9 @@ struct End
 End clippedEnd(const DrawGeometry& draw, const std::uint32_t vertex[2], const ClipVertex& clipped, TriangleChunk& chunk)
 {
     const float(&w)[3] = clipped.weight;
+    const int corner = w[0] == 1.0f ? 0 : w[1] == 1.0f ? 1 : -1;
     End end{};
-    if (w[0] == 1.0f || w[1] == 1.0f) {
-        end.vertex = vertex[w[0] == 1.0f ? 0 : 1];
-    } else {
-        end.vertex = kClippedVertex | static_cast<std::uint32_t>(chunk.clippedComponents.size());
-        const float* a = componentsOf(draw, chunk, vertex[0]);
-        const float* b = componentsOf(draw, chunk, vertex[1]);
-        for (std::uint32_t c = 0; c < draw.componentCount; ++c)
-            chunk.clippedComponents.push_back(w[0] * a[c] + w[1] * b[c]);
-    }
+    end.vertex = corner >= 0 ? vertex[corner] : clippedVertex(draw, {vertex[0], vertex[1], vertex[1]}, clipped, chunk);
     float4 position;
     for (int c = 0; c < 4; ++c) position[c] = clipped.position[c];
     const ScreenLanes screen = ViewportTransform(draw.viewport).project(position);
@@ -45,12 +40,14 @@ struct Corner
     int side;
 };
 
-bool append(const DrawGeometry& draw, Corner a, Corner b, Corner c, bool xMajor, TriangleChunk& chunk)
+bool append(const DrawGeometry& draw, std::array<Corner, 3> corners, const End& first, bool xMajor,
+            TriangleChunk& chunk)
 {
+    // What is not interpolated is that of the line's first end.
+    while (draw.hasFlat && corners[0].end != &first) std::rotate(corners.begin(), corners.begin() + 1, corners.end());
     const std::int32_t half = draw.lineWidth * kSubpixels / 2;
     Triangle t;
-    const Corner corners[3] = {a, b, c};
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
         const ScreenVertex& s = corners[k].end->screen;
         t.x[k] = s.x + (xMajor ? 0 : corners[k].side * half);
         t.y[k] = s.y + (xMajor ? corners[k].side * half : 0);
@@ -77,8 +74,8 @@ bool appendLine(const DrawGeometry& draw, const End& first, const End& second, T
     const bool forward = xMajor ? major > 0 : major < 0;
     const End& a = forward ? first : second;
     const End& b = forward ? second : first;
-    const bool one = append(draw, {&a, -1}, {&b, -1}, {&b, +1}, xMajor, chunk);
-    const bool two = append(draw, {&a, -1}, {&b, +1}, {&a, +1}, xMajor, chunk);
+    const bool one = append(draw, {{{&a, -1}, {&b, -1}, {&b, +1}}}, first, xMajor, chunk);
+    const bool two = append(draw, {{{&a, -1}, {&b, +1}, {&a, +1}}}, first, xMajor, chunk);
     return one || two;
 }
 
@@ -91,7 +88,8 @@ void setUpLines(const DrawGeometry& draw, std::uint32_t first, std::uint32_t cou
     const ViewportTransform transform(draw.viewport);
     const ClipLimits limits = {transform.inverseGuardX, transform.inverseGuardY, draw.depthClip};
     for (std::uint32_t i = first; i < first + count; ++i) {
-        const std::uint32_t* vertex = draw.indices + 2 * static_cast<std::size_t>(i);
+        std::uint32_t room[2];
+        const std::uint32_t* vertex = cornersOf(draw, i, 1, 2, room);
         if (vertex[0] >= draw.vertexCount || vertex[1] >= draw.vertexCount) {
             ++statistics.droppedIndex;
             continue;

@@ -1,5 +1,7 @@
-// Render state that is part of a draw's type, so that what a draw does not use is not in its code.
+// Render state: a plain value of each draw.
 #pragma once
+
+#include <cstdint>
 
 namespace relief {
 
@@ -45,6 +47,14 @@ struct RenderState
     Blend blend = Blend::off;
     Primitive primitive = Primitive::triangles;
     int lineWidth = 1;  // pixels: 1 or 2
+};
+
+// Which indices of a mesh a draw takes, and how often.
+struct MeshPart
+{
+    std::uint32_t first = 0;
+    std::uint32_t count = 0xffffffffu;  // up to the mesh's last
+    std::uint32_t instances = 1;
 };
 
 }  // namespace relief

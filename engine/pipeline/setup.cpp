@@ -61,7 +61,8 @@ void sortOut(const DrawGeometry& draw, const std::uint32_t* index, unsigned lane
 Batch gather(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, Statistics& statistics)
 {
     constexpr std::uint32_t corners = 3 * kLanes;
-    const std::uint32_t* const indices = draw.indices + 3 * static_cast<std::size_t>(first);
+    std::uint32_t room[corners];
+    const std::uint32_t* const indices = cornersOf(draw, first, count, 3, room);
     const bool inRange = largestOf(indices, 3 * count) < draw.vertexCount;
     const std::uint32_t* index = indices;
     std::uint32_t replaced[corners];
@@ -209,19 +210,15 @@ void clipAndSetUp(const DrawGeometry& draw, const TriangleLanes& t, int lane, Tr
         return;
     }
 
-    // New vertices get interpolated components; the triangle's own corners keep theirs.
+    // The triangle's own corners keep their components; new vertices get some. A fan begins with its first vertex, and
+    // a value that is not interpolated is that of the triangle's: where the two are not the same, it is copied.
     std::uint32_t vertex[kMaxClippedVertices];
-    const float* components[3];
-    for (int k = 0; k < 3; ++k) components[k] = componentsOf(draw, chunk, vertexOf(k));
     for (int i = 0; i < count; ++i) {
         const float(&w)[3] = polygon[i].weight;
-        vertex[i] = vertexOf(w[0] == 1.0f ? 0 : w[1] == 1.0f ? 1 : 2);
-        if (w[0] == 1.0f || w[1] == 1.0f || w[2] == 1.0f) continue;
-        vertex[i] = kClippedVertex | static_cast<std::uint32_t>(chunk.clippedComponents.size());
-        for (std::uint32_t c = 0; c < draw.componentCount; ++c) {
-            chunk.clippedComponents.push_back(w[0] * components[0][c] + w[1] * components[1][c] +
-                                              w[2] * components[2][c]);
-        }
+        const int corner = w[0] == 1.0f ? 0 : w[1] == 1.0f ? 1 : w[2] == 1.0f ? 2 : -1;
+        const bool kept = corner >= 0 && (corner == 0 || i > 0 || !draw.hasFlat);
+        vertex[i] = kept ? vertexOf(corner)
+                         : clippedVertex(draw, {vertexOf(0), vertexOf(1), vertexOf(2)}, polygon[i], chunk);
     }
 
     // The fan (0, i + 1, i + 2): one triangle a lane, and at most eight of them.

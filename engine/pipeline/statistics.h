@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "texture/sampler.h"
+#include "texture/fetch_counters.h"
 
 namespace relief {
 

@@ -1,100 +1,49 @@
 #include "pipeline/tile.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
-#include "pipeline/output_merger.h"
+#include "pipeline/format.h"
 
 namespace relief {
 
 namespace {
 
-// Pixels that are neighbours in a row and in neighbouring lanes come in pairs: quad by quad.
-template <class PixelPair>
-void forEachPair(int x0, int y0, int size, const PixelPair& visit)
+// The value that an attachment is cleared to; false where it is not.
+bool clearValue(const Attachment& attachment, const Clear& clear, std::int32_t (&words)[4])
 {
-    int lane = 0;
-    for (int y = 0; y < size; y += kBlockHeight) {
-        for (int x = 0; x < size; x += kBlockWidth, lane += kLanes) {
-            for (int i = 0; i < kLanes; i += 2) visit(x0 + x + laneX(i), y0 + y + laneY(i), lane + i);
-        }
+    if (attachment.format == Format::depth32f) {
+        if (clear.depth) words[0] = std::bit_cast<std::int32_t>(*clear.depth);
+        return clear.depth.has_value();
     }
+    if (clear.color) packColor(*clear.color, attachment.format, words);
+    return clear.color.has_value();
 }
 
-}  // namespace
-
-Tile::Tile(int tileSize, ColorFormat format)
-    : size(tileSize),
-      blocksWide(tileSize / kBlockWidth),
-      blockCount(blocksWide * (tileSize / kBlockHeight)),
-      mFormat(format)
+// Copies blocks of pixels, row after row each, to the rows of an image. `words` are those of a pixel.
+template <int words>
+void storeRows(int width, int height, int blocksWide, std::size_t stride, const std::int32_t* blocks,
+               std::uint32_t* target)
 {
-    const auto lanes = static_cast<std::size_t>(blockCount) * kLanes;
-    if (format == ColorFormat::rgba32f) {
-        mColor32f = std::make_unique<float[]>(lanes * 4);
-    } else {
-        mColor8 = std::make_unique<std::int32_t[]>(lanes);
-    }
-    mDepth = std::make_unique<float[]>(lanes);
-    mBounds = std::make_unique<DepthBounds[]>(static_cast<std::size_t>(blockCount));
-}
-
-void Tile::clear(int x, int y, const glm::vec4& color, float depthValue)
-{
-    originX = x;
-    originY = y;
-    const auto lanes = static_cast<std::size_t>(blockCount) * kLanes;
-    if (mFormat == ColorFormat::rgba32f) {
-        for (std::size_t i = 0; i < lanes * 4; ++i) mColor32f[i] = color[static_cast<int>(i / kLanes % 4)];
-    } else {
-        std::fill_n(mColor8.get(), lanes, static_cast<std::int32_t>(packColor(color, mFormat)));
-    }
-    std::fill_n(mDepth.get(), lanes, depthValue);
-    std::fill_n(mBounds.get(), blockCount, DepthBounds{depthValue, depthValue});
-}
-
-void Tile::load(int x0, int y0, const Framebuffer& target, float transientDepth)
-{
-    clear(x0, y0, glm::vec4(0.0f), transientDepth);
-    const int width = target.width();
-    forEachPair(x0, y0, size, [&](int px, int py, int lane) {
-        for (int i = 0; i < 2; ++i, ++px, ++lane) {
-            if (px >= width || py >= target.height()) return;
-            const auto pixel =
-                static_cast<std::size_t>(py) * static_cast<std::size_t>(width) + static_cast<std::size_t>(px);
-            if (mFormat == ColorFormat::rgba32f) {
-                for (int c = 0; c < 4; ++c) {
-                    mColor32f[static_cast<std::size_t>(lane / kLanes * 4 * kLanes + c * kLanes + lane % kLanes)] =
-                        target.color32f()[pixel][c];
-                }
-            } else {
-                mColor8[static_cast<std::size_t>(lane)] = static_cast<std::int32_t>(target.color8()[pixel]);
-            }
-            if (!target.depth().empty()) mDepth[static_cast<std::size_t>(lane)] = target.depth()[pixel];
-        }
-    });
-    if (target.depth().empty()) return;
-    for (int block = 0; block < blockCount; ++block) {
-        const auto [low, high] = std::minmax_element(depth(block), depth(block) + kLanes);
-        bounds(block) = {*low, *high};
-    }
-}
-
-namespace {
-
-// Copies blocks of pixels, row after row each, to the rows of an image. `store` puts block b's into an array.
-template <class Pixel, class Store>
-void storeRows(int width, int height, int blocksWide, std::size_t stride, Pixel* target, const Store& store)
-{
+    constexpr std::size_t pixelBytes = words * sizeof(std::uint32_t);
     for (int y = 0; y < height; y += kBlockHeight) {
         for (int x = 0; x < width; x += kBlockWidth) {
-            Pixel rows[kLanes];
-            store(y / kBlockHeight * blocksWide + x / kBlockWidth, rows);
-            Pixel* corner = target + static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
+            const std::int32_t* block = blocks + (y / kBlockHeight * blocksWide + x / kBlockWidth) * kLanes * words;
+            std::int32_t rows[kLanes * words];
+            if constexpr (words == 1) {
+                inRows(Int::load(block)).store(rows);
+            } else {
+                for (int i = 0; i < kLanes; ++i) {
+                    for (int c = 0; c < words; ++c)
+                        rows[(laneY(i) * kBlockWidth + laneX(i)) * words + c] = block[c * kLanes + i];
+                }
+            }
+            std::uint32_t* corner = target + (static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)) * words;
             const auto copy = [&](int columns, int count) {
                 for (int row = 0; row < count; ++row) {
-                    std::memcpy(corner + static_cast<std::size_t>(row) * stride, rows + row * kBlockWidth,
-                                static_cast<std::size_t>(columns) * sizeof(Pixel));
+                    std::memcpy(corner + static_cast<std::size_t>(row) * stride * words,
+                                rows + row * kBlockWidth * words, static_cast<std::size_t>(columns) * pixelBytes);
                 }
             };
             if (x + kBlockWidth <= width && y + kBlockHeight <= height) {
@@ -108,52 +57,126 @@ void storeRows(int width, int height, int blocksWide, std::size_t stride, Pixel*
 
 }  // namespace
 
-void Tile::store(Framebuffer& target) const
+TargetMemory::TargetMemory(Framebuffer& target)
+    : width(target.width()), height(target.height()), attachments(target.attachments())
 {
-    const auto stride = static_cast<std::size_t>(target.width());
-    const std::size_t first = static_cast<std::size_t>(originY) * stride + static_cast<std::size_t>(originX);
-    const int width = std::min(size, target.width() - originX), height = std::min(size, target.height() - originY);
-    const auto lane = [](int block) { return static_cast<std::size_t>(block) * kLanes; };
-    if (mFormat == ColorFormat::rgba32f) {
-        storeRows(width, height, blocksWide, stride, target.color32f().data() + first, [&](int block, glm::vec4* rows) {
-            const float* r = mColor32f.get() + lane(block) * 4;
-            for (int i = 0; i < kLanes; ++i) {
-                rows[laneY(i) * kBlockWidth + laneX(i)] = {r[i], r[kLanes + i], r[2 * kLanes + i], r[3 * kLanes + i]};
-            }
-        });
+    for (std::size_t i = 0; i < attachments.size(); ++i) words.push_back(target.words(static_cast<int>(i)).data());
+}
+
+Tile::Tile(int tileSize, const std::vector<Attachment>& attachments)
+    : size(tileSize), blocksWide(tileSize / kBlockWidth), blockCount(blocksWide * (tileSize / kBlockHeight))
+{
+    const auto pixels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+    for (const Attachment& attachment : attachments) {
+        const auto words = static_cast<std::size_t>(wordsPerPixel(attachment.format));
+        planes.push_back({attachment.format, std::make_unique<std::int32_t[]>(pixels * words)});
+    }
+    for (const Plane& plane : planes) (plane.format == Format::depth32f ? depthPlane : colorPlane) = &plane;
+    mBounds = std::make_unique<DepthBounds[]>(static_cast<std::size_t>(blockCount));
+}
+
+bool Tile::isFor(const std::vector<Attachment>& attachments) const
+{
+    return std::equal(planes.begin(), planes.end(), attachments.begin(), attachments.end(),
+                      [](const Plane& plane, const Attachment& a) { return plane.format == a.format; });
+}
+
+void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
+{
+    originX = x;
+    originY = y;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        std::int32_t value[4] = {};
+        const bool isCleared = clearValue(target.attachments[i], clear, value);
+        const bool isPartial = x + size > target.width || y + size > target.height;
+        if (isCleared || isPartial || target.words[i] == nullptr) fill(planes[i], value);
+        if (!isCleared && target.words[i] != nullptr) load(planes[i], target, target.words[i]);
+    }
+    if (!depthPlane) return;
+    if (clear.depth) {
+        std::fill_n(mBounds.get(), blockCount, DepthBounds{*clear.depth, *clear.depth});
     } else {
-        storeRows(width, height, blocksWide, stride, reinterpret_cast<std::int32_t*>(target.color8().data()) + first,
-                  [&](int block, std::int32_t* rows) { inRows(Int::load(mColor8.get() + lane(block))).store(rows); });
-    }
-    if (!target.depth().empty()) {
-        storeRows(width, height, blocksWide, stride, target.depth().data() + first, [&](int block, float* rows) {
-            asFloat(inRows(asInt(Float::load(mDepth.get() + lane(block))))).store(rows);
-        });
+        setBounds();
     }
 }
 
-void clearRectangle(Framebuffer& target, const Rectangle& pixels, const glm::vec4& color, float depth)
+void Tile::fill(const Plane& plane, const std::int32_t (&value)[4])
 {
-    const Rectangle inside = intersect(pixels, {0, 0, target.width(), target.height()});
-    const auto stride = static_cast<std::size_t>(target.width());
-    const auto count = static_cast<std::size_t>(inside.x1 - inside.x0);
-    const bool isFloat = target.format() == ColorFormat::rgba32f;
-    const std::uint32_t packed = isFloat ? 0 : packColor(color, target.format());
-    for (int y = inside.y0; y < inside.y1; ++y) {
-        const std::size_t row = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(inside.x0);
-        if (isFloat) {
-            std::fill_n(target.color32f().data() + row, count, color);
-        } else {
-            std::fill_n(target.color8().data() + row, count, packed);
+    const int words = wordsPerPixel(plane.format);
+    if (words == 1) {
+        std::fill_n(plane.words.get(), blockCount * kLanes, value[0]);
+        return;
+    }
+    for (int block = 0; block < blockCount; ++block) {
+        for (int c = 0; c < words; ++c) std::fill_n(plane.at(block) + c * kLanes, kLanes, value[c]);
+    }
+}
+
+void Tile::load(const Plane& plane, const TargetMemory& target, const std::uint32_t* from)
+{
+    const int words = wordsPerPixel(plane.format);
+    for (int block = 0; block < blockCount; ++block) {
+        const int x = originX + block % blocksWide * kBlockWidth, y = originY + block / blocksWide * kBlockHeight;
+        std::int32_t* to = plane.at(block);
+        for (int i = 0; i < kLanes; ++i) {
+            const int px = x + laneX(i), py = y + laneY(i);
+            if (px >= target.width || py >= target.height) continue;
+            const std::size_t pixel =
+                static_cast<std::size_t>(py) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(px);
+            for (int c = 0; c < words; ++c)
+                to[c * kLanes + i] = static_cast<std::int32_t>(from[pixel * static_cast<std::size_t>(words) + static_cast<std::size_t>(c)]);
         }
-        if (!target.depth().empty()) std::fill_n(target.depth().data() + row, count, depth);
     }
 }
 
-std::uint32_t packColor(const glm::vec4& color, ColorFormat format)
+void Tile::setBounds()
 {
-    const float4 c = broadcast(color);
-    return static_cast<std::uint32_t>(packRgba8(format == ColorFormat::rgba8Srgb ? encodeSrgb(c) : c)[0]);
+    for (int block = 0; block < blockCount; ++block) {
+        const auto [low, high] = std::minmax_element(depth(block), depth(block) + kLanes);
+        bounds(block) = {*low, *high};
+    }
+}
+
+void Tile::store(const TargetMemory& target) const
+{
+    const auto stride = static_cast<std::size_t>(target.width);
+    const std::size_t first = static_cast<std::size_t>(originY) * stride + static_cast<std::size_t>(originX);
+    const int width = std::min(size, target.width - originX), height = std::min(size, target.height - originY);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        if (target.words[i] == nullptr) continue;
+        const int words = wordsPerPixel(planes[i].format);
+        const auto storePlane = words == 1 ? storeRows<1> : words == 2 ? storeRows<2> : storeRows<4>;
+        storePlane(width, height, blocksWide, stride, planes[i].words.get(),
+                   target.words[i] + first * static_cast<std::size_t>(words));
+    }
+}
+
+void packColor(const glm::vec4& color, Format format, std::int32_t (&words)[4])
+{
+    Int lanes[4];
+    encodeColor(format, broadcast(color), lanes);
+    for (int i = 0; i < wordsPerPixel(format); ++i) words[i] = lanes[i][0];
+}
+
+void clearRectangle(const TargetMemory& target, const Rectangle& pixels, const Clear& clear)
+{
+    const Rectangle inside = intersect(pixels, {0, 0, target.width, target.height});
+    if (inside.x0 >= inside.x1) return;
+    const auto stride = static_cast<std::size_t>(target.width);
+    const auto count = static_cast<std::size_t>(inside.x1 - inside.x0);
+    for (std::size_t i = 0; i < target.words.size(); ++i) {
+        std::int32_t value[4] = {};
+        if (target.words[i] == nullptr || !clearValue(target.attachments[i], clear, value)) continue;
+        const auto words = static_cast<std::size_t>(wordsPerPixel(target.attachments[i].format));
+        for (int y = inside.y0; y < inside.y1; ++y) {
+            std::uint32_t* row = target.words[i] + (static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(inside.x0)) * words;
+            if (words == 1) {
+                std::fill_n(row, count, static_cast<std::uint32_t>(value[0]));
+                continue;
+            }
+            for (std::size_t k = 0; k < count * words; ++k) row[k] = static_cast<std::uint32_t>(value[k % words]);
+        }
+    }
 }
 
 }  // namespace relief

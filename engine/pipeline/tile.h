@@ -1,8 +1,10 @@
-// A tile's colour and depth while one thread works on it. They are kept block by block, one value per lane, so that a
+// A tile's attachments while one thread works on it. They are kept block by block, one value per lane, so that a
 // block's colour or depth is one load; the rows of the image exist only when the finished tile is written out.
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "lanes/float.h"
 #include "pipeline/framebuffer.h"
@@ -17,48 +19,83 @@ struct DepthBounds
     float nearest, farthest;
 };
 
+// What attachments hold before a frame's first draw. What is not cleared keeps what it holds. Colour is linear.
+struct Clear
+{
+    std::optional<glm::vec4> color;
+    std::optional<float> depth;
+};
+
+// Where a target's attachments lie: null where there is nothing to load and store.
+struct TargetMemory
+{
+    int width = 0, height = 0;
+    std::vector<Attachment> attachments;
+    std::vector<std::uint32_t*> words;
+
+    explicit TargetMemory(Framebuffer& target);
+};
+
 class Tile
 {
 public:
-    // For tiles of `size` x `size` pixels of a target of this format.
-    Tile(int size, ColorFormat format);
+    // For tiles of `size` x `size` pixels of targets with these attachments.
+    Tile(int size, const std::vector<Attachment>& attachments);
+
+    Tile(const Tile&) = delete;
+    Tile& operator=(const Tile&) = delete;
+
+    bool isFor(const std::vector<Attachment>& attachments) const;
 
     // Starts on the tile at pixel (x, y): from the clear values, or from what the target holds.
-    void clear(int x, int y, const glm::vec4& color, float depth);
-    void load(int x, int y, const Framebuffer& target, float transientDepth);
+    void begin(int x, int y, const TargetMemory& target, const Clear& clear);
 
     // Writes the pixels that lie in the target.
-    void store(Framebuffer& target) const;
+    void store(const TargetMemory& target) const;
 
-    ColorFormat format() const { return mFormat; }
     int blockAt(int x, int y) const
     {
         const auto column = static_cast<unsigned>(x - originX), row = static_cast<unsigned>(y - originY);
         return static_cast<int>(row / kBlockHeight) * blocksWide + static_cast<int>(column / kBlockWidth);
     }
 
-    std::int32_t* color8(int block) { return mColor8.get() + static_cast<std::size_t>(block) * kLanes; }
-    float* color32f(int block)
-    {
-        return mColor32f.get() + static_cast<std::size_t>(block) * kLanes * 4;
-    }  // R.., G.., B.., A..
-    float* depth(int block) { return mDepth.get() + static_cast<std::size_t>(block) * kLanes; }
+    bool hasColor() const { return colorPlane != nullptr; }
+    bool hasDepth() const { return depthPlane != nullptr; }
+    Format colorFormat() const { return colorPlane->format; }
+
+    // A block's words: the first ones of all lanes, then the second ones.
+    std::int32_t* color(int block) { return colorPlane->at(block); }
+    float* depth(int block) { return reinterpret_cast<float*>(depthPlane->at(block)); }
     DepthBounds& bounds(int block) { return mBounds[static_cast<std::size_t>(block)]; }
 
 private:
+    struct Plane
+    {
+        Format format;
+        std::unique_ptr<std::int32_t[]> words;
+
+        std::int32_t* at(int block) const
+        {
+            return words.get() + static_cast<std::size_t>(block) * static_cast<std::size_t>(kLanes * wordsPerPixel(format));
+        }
+    };
+
+    void fill(const Plane& plane, const std::int32_t (&value)[4]);
+    void load(const Plane& plane, const TargetMemory& target, const std::uint32_t* words);
+    void setBounds();
+
     int size, blocksWide, blockCount;
-    ColorFormat mFormat;
     int originX = 0, originY = 0;
-    std::unique_ptr<std::int32_t[]> mColor8;
-    std::unique_ptr<float[]> mColor32f;
-    std::unique_ptr<float[]> mDepth;
+    std::vector<Plane> planes;  // one for each attachment
+    const Plane* colorPlane = nullptr;
+    const Plane* depthPlane = nullptr;
     std::unique_ptr<DepthBounds[]> mBounds;
 };
 
-// A colour as the format stores it; only for the 8-bit formats.
-std::uint32_t packColor(const glm::vec4& color, ColorFormat format);
+// A colour as the format stores it.
+void packColor(const glm::vec4& color, Format format, std::int32_t (&words)[4]);
 
-// Fills the part of a rectangle that lies in the target, without a tile in between: where nothing is drawn.
-void clearRectangle(Framebuffer& target, const Rectangle& pixels, const glm::vec4& color, float depth);
+// Clears the part of a rectangle that lies in the target, without a tile in between: where nothing is drawn.
+void clearRectangle(const TargetMemory& target, const Rectangle& pixels, const Clear& clear);
 
 }  // namespace relief

@@ -1,5 +1,5 @@
-// How often a frame sampled textures, and how. The numbers count lanes that a block shades (relief::activeLanes), so
-// they are the same for every number of lanes. Each thread has its own; who runs a frame adds them up.
+// How often a frame sampled textures, and how. The numbers count lanes that a block shades (Shading::activeLanes), so
+// they are the same for every number of lanes.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,5 @@ struct FetchCounters
     }
     friend bool operator==(const FetchCounters&, const FetchCounters&) = default;
 };
-
-inline constinit thread_local FetchCounters fetchCounters;
 
 }  // namespace relief

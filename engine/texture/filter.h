@@ -8,7 +8,7 @@
 
 #include <bit>
 
-#include "lanes/active.h"
+#include "texture/shading_scope.h"
 #include "leave_out.h"
 #include "texture/fetch.h"
 #include "texture/sampler.h"
@@ -61,7 +61,7 @@ struct Place
 // The lanes that results are wanted for. A block without any still gets some values.
 inline unsigned wantedLanes()
 {
-    return activeLanes != 0 ? activeLanes : 1u;
+    return shading.activeLanes != 0 ? shading.activeLanes : 1u;
 }
 
 // The texels that a bilinear sample lies between, on one level: positions and weights along both axes.

@@ -6,7 +6,7 @@
 
 #include "hlsl/derivatives.h"
 #include "hlsl/intrinsics.h"
-#include "lanes/active.h"
+#include "texture/shading_scope.h"
 #include "leave_out.h"
 #include "texture/filter.h"
 #include "texture/level_of_detail.h"
@@ -106,34 +106,34 @@ inline bool isAnisotropic(const sampler2D& s)
 
 inline void countSample(const sampler2D& s)
 {
-    const std::uint64_t n = countOf(activeLanes);
+    const std::uint64_t n = countOf(shading.activeLanes);
     if (isAnisotropic(s))
-        fetchCounters.anisotropic += n;
+        shading.fetches.anisotropic += n;
     else if (s.filter == Filter::trilinear)
-        fetchCounters.trilinear += n;
+        shading.fetches.trilinear += n;
     else if (s.filter == Filter::bilinear)
-        fetchCounters.bilinear += n;
+        shading.fetches.bilinear += n;
     else
-        fetchCounters.nearest += n;
+        shading.fetches.nearest += n;
 }
 
 inline void countLevels(const sampler2D& s, unsigned onFinest, unsigned onOneLevel)
 {
-    if ((onOneLevel & activeLanes) == 0) return;  // as mostly; the finest is one level, too
-    fetchCounters.magnified += countOf(onFinest & activeLanes);
-    if (s.filter == Filter::trilinear) fetchCounters.secondLevelSkipped += countOf(onOneLevel & activeLanes);
+    if ((onOneLevel & shading.activeLanes) == 0) return;  // as mostly; the finest is one level, too
+    shading.fetches.magnified += countOf(onFinest & shading.activeLanes);
+    if (s.filter == Filter::trilinear) shading.fetches.secondLevelSkipped += countOf(onOneLevel & shading.activeLanes);
 }
 
 inline void countNoDerivatives()
 {
-    fetchCounters.noDerivatives += countOf(activeLanes);
+    shading.fetches.noDerivatives += countOf(shading.activeLanes);
 }
 
 inline void countFinest(const sampler2D& s)
 {
     countSample(s);
     countLevels(s, kAllLanes, kAllLanes);
-    if (isAnisotropic(s)) fetchCounters.taps += countOf(activeLanes);
+    if (isAnisotropic(s)) shading.fetches.taps += countOf(shading.activeLanes);
 }
 
 // --- the level of detail ---
@@ -202,7 +202,7 @@ template <class Finest, class MipChain>
     const unsigned onFinest = (fixed == 0).bits();
     countSample(s);
     countLevels(s, onFinest, ((fixed & (kLodOne - 1)) == 0).bits());
-    if (isAnisotropic(s)) fetchCounters.taps += countOf(activeLanes);  // tex2Dlod
+    if (isAnisotropic(s)) shading.fetches.taps += countOf(shading.activeLanes);  // tex2Dlod
     if (leavesOut::coarserLevel && (wantedLanes() & ~onFinest) == 0) return finest();
     return mipChain(fixed, guess);
 }
@@ -231,7 +231,7 @@ template <class Bias, class Finest, class MipChain>
     countSample(s);
     countLevels(s, kAllLanes, kAllLanes);
     countNoDerivatives();
-    fetchCounters.constant += countOf(activeLanes);
+    shading.fetches.constant += countOf(shading.activeLanes);
     result = broadcast(texture.constant());
 }
 
@@ -292,7 +292,7 @@ template <class Fetch, class Modes>
         const Mask hasTap = footprint.taps > static_cast<float>(i);
         const unsigned lanes = hasTap.bits() & wantedLanes();
         if (lanes == 0) break;
-        fetchCounters.taps += countOf(lanes & activeLanes);
+        shading.fetches.taps += countOf(lanes & shading.activeLanes);
         const Float along = (static_cast<float>(2 * i + 1) - footprint.taps) * perTap;
         sampleMipChain(tap, s, texture, u + axis.x * along, v + axis.y * along, fixed, guess);
         if (i == 0) {
@@ -387,11 +387,11 @@ void sampleLod(float4& result, const sampler2D& s, Float u, Float v, Float lod)
 
 float4 tex2DWhere(Mask needed, const sampler2D& s, const float2& uv)
 {
-    const unsigned outside = activeLanes;
-    if (leavesOut::planes) activeLanes = outside & needed.bits();
+    const unsigned outside = shading.activeLanes;
+    if (leavesOut::planes) shading.activeLanes = outside & needed.bits();
     float4 color(0.0f);
-    if (activeLanes != 0) color = select(needed, tex2D(s, uv), color);
-    activeLanes = outside;
+    if (shading.activeLanes != 0) color = select(needed, tex2D(s, uv), color);
+    shading.activeLanes = outside;
     return color;
 }
 

@@ -8,7 +8,6 @@
 
 #include "hlsl/types.h"
 #include "texture/address.h"
-#include "texture/fetch_counters.h"
 #include "texture/texture.h"
 
 namespace relief {

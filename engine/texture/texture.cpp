@@ -4,6 +4,7 @@
 #include <string>
 
 #include "texture/pixels.h"
+#include "texture/shading_scope.h"
 
 namespace relief {
 namespace {
@@ -116,6 +117,7 @@ glm::vec4 Texture::texel(int x, int y) const
 
 const MipLevel& Texture::buildLevel(int k) const
 {
+    const ShadingScope scope;  // a block may ask for the level while it is shaded
     const std::lock_guard lock(chain->building);
     for (int i = 0; i <= k; ++i) {
         const auto at = static_cast<std::size_t>(i);

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "cost.h"
+#include "pipeline/workers.h"
 
 namespace relief::samples {
 
@@ -10,7 +11,7 @@ namespace {
 // Draws and measures nothing. The last frame is what an instruction counter is to see.
 Expected<void> drawFrames(const PreparedStage& stage, Size size, const BenchOptions& options)
 {
-    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, ColorFormat::rgba8Srgb);
+    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = options.render.threads});
     stage.record(frame, size.width, size.height);

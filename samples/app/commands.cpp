@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/instruments.h"
+
 namespace relief::samples {
 
 namespace {
@@ -101,7 +103,7 @@ Expected<void> list(bool json)
 
 Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path)
 {
-    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, ColorFormat::rgba8Srgb);
+    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = threads});
     stage.record(frame, size.width, size.height);
@@ -133,7 +135,7 @@ Expected<void> hash(const RenderOptions& options, int tileSize)
     const Expected<PreparedStage> prepared = prepare(options);
     if (!prepared) return tl::unexpected(prepared.error());
     Expected<Framebuffer> target =
-        Framebuffer::create(size->width, size->height, ColorFormat::rgba32f, DepthStorage::keep);
+        Framebuffer::create(size->width, size->height, Format::rgba32f, Store::keep);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = options.threads, .tileSize = tileSize});
     prepared->record(frame, size->width, size->height);
@@ -167,7 +169,7 @@ Expected<void> signature(const RenderOptions& options, const std::string& binorm
     prepared->record(frame, 16, 16);
     std::set<std::string> printed;
     for (int draw = 0; draw < frame.drawCount(); ++draw) {
-        const std::string table = frame.outputSignature(draw);
+        const std::string table = *outputSignature(frame, draw);
         if (printed.insert(table).second) std::printf("%s%s", printed.size() > 1 ? "\n" : "", table.c_str());
     }
     return {};

@@ -62,7 +62,7 @@ Quartiles ratio(const Cost& cost, const Cost& reference)
 Expected<std::vector<Cost>> measure(const std::vector<PreparedStage>& stages, Size size, int threads, int rounds,
                                     const std::function<void(int round)>& progress)
 {
-    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, ColorFormat::rgba8Srgb);
+    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
     // One frame for all, recorded anew for each turn: the stages share its memory, so where it lies favours none.
     Frame frame(*target, {.threads = threads});

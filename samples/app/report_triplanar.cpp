@@ -276,7 +276,7 @@ Expected<Difference> difference(const Subject& one, const Subject& other, const 
         if (!each) return tl::unexpected(each.error());
         const Expected<PreparedStage> stage = prepare(*each);
         if (!stage) return tl::unexpected(stage.error());
-        Expected<Framebuffer> target = Framebuffer::create(size->width, size->height, ColorFormat::rgba8Srgb);
+        Expected<Framebuffer> target = Framebuffer::create(size->width, size->height, Format::rgba8Srgb);
         if (!target) return tl::unexpected(target.error());
         Frame frame(*target, {.threads = 1});
         stage->record(frame, size->width, size->height);

@@ -7,6 +7,7 @@
 
 #include "common/camera.h"
 #include "mesh/primitives.h"
+#include "pipeline/format.h"
 #include "relief.h"
 #include "report.h"
 #include "shading/cotangent_frame.h"
@@ -68,11 +69,11 @@ Panel drawn(const Mesh& mesh, const Fragment& fragment, const glm::vec3& from, f
             const glm::vec3& at = glm::vec3(0.0f))
 {
     const Camera camera = {.position = from, .target = at, .fieldOfView = fieldOfView};
-    Framebuffer target = *Framebuffer::create(kSide, kSide, ColorFormat::rgba8Srgb);
+    Framebuffer target = *Framebuffer::create(kSide, kSide, Format::rgba8Srgb);
     Frame frame(target);
     frame.clear({0.02f, 0.025f, 0.03f, 1.0f});
-    frame.draw<state>(
-        mesh, Vertex{ObjectTransform(clipFromView(camera, 1.0f) * viewFromWorld(camera), glm::mat4(1.0f))}, fragment);
+    frame.draw(
+        mesh, Vertex{ObjectTransform(clipFromView(camera, 1.0f) * viewFromWorld(camera), glm::mat4(1.0f))}, fragment, state);
     frame.run();
     return panelOf(target);
 }
@@ -197,11 +198,11 @@ template <class Fragment>
 Framebuffer drawnInPixels(const Mesh& mesh, const Fragment& fragment, int x, int y, int side)
 {
     constexpr RenderState kCount = {Compare::always, false, true, Cull::none, Blend::additive};
-    Framebuffer target = *Framebuffer::create(side, side, ColorFormat::rgba32f);
+    Framebuffer target = *Framebuffer::create(side, side, Format::rgba32f);
     Frame frame(target);
     frame.clear(glm::vec4(0.0f));
     frame.setViewport({-x, -y, static_cast<int>(kLargeTarget.x), static_cast<int>(kLargeTarget.y)});
-    frame.draw<kCount>(mesh, InPixels(), fragment);
+    frame.draw(mesh, InPixels(), fragment, kCount);
     frame.run();
     return target;
 }

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "pipeline/instruments.h"
+
 namespace relief::samples {
 
 namespace {
@@ -22,7 +24,7 @@ void countLevels(const LoadedInputs& inputs, const SceneLog& log, Usage& usage)
 
 Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads)
 {
-    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, ColorFormat::rgba32f);
+    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, Format::rgba32f);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = threads});
     stage.record(frame, size.width, size.height);
@@ -31,8 +33,9 @@ Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads)
     countLevels(*stage.inputs, *stage.log, usage);
     usage.passesLeftOut = stage.log->passesLeftOut;
     for (int draw = 0; draw < frame.drawCount(); ++draw) {
-        usage.componentsDeclared += frame.componentCount(draw);
-        for (int c = 0; c < frame.componentCount(draw); ++c) usage.componentsUsed += frame.dependsOn(draw, c) ? 1 : 0;
+        const int components = *componentCount(frame, draw);
+        usage.componentsDeclared += components;
+        for (int c = 0; c < components; ++c) usage.componentsUsed += *dependsOn(frame, draw, c) ? 1 : 0;
     }
     return usage;
 }

@@ -69,9 +69,9 @@ Stage basics_03_depth()
                         // One camera for all three views, each in its third of the picture.
                         s.cutCell(view, 3);
                         const MyVertexProgram vertex{s.object(turned[k] * scaling(glm::vec3(0.54f)))};
-                        if (view == 0) s.draw<kBothSides>(s.mesh, vertex, ShowColor{colors[k]});
-                        if (view == 1) s.draw<kBothSides>(s.mesh, vertex, ShowDepth{});
-                        if (view == 2) s.draw<kBothSides>(s.mesh, vertex, ShowInverseW{});
+                        if (view == 0) s.draw(s.mesh, vertex, ShowColor{colors[k]}, kBothSides);
+                        if (view == 1) s.draw(s.mesh, vertex, ShowDepth{}, kBothSides);
+                        if (view == 2) s.draw(s.mesh, vertex, ShowInverseW{}, kBothSides);
                     }
                 }
             }};

@@ -92,16 +92,15 @@ VertexLights twoLamps(Float strength)
                       float3(Float(0.0f))}};
 }
 
-template <RenderState pass, class Light>
+template <bool basePass, class Light>
 void drawPass(const Scene& s, const Object& o, const Light& light)
 {
-    constexpr bool basePass = pass.blend == Blend::off;
     const float ambient = s.number("ambient")[0];
     const glm::vec3 sky(0.1f, 0.13f, 0.2f), equator(0.05f), ground(0.02f);
-    s.draw<pass>(*o.mesh, MyVertexProgram<basePass>{s.object(o.worldFromObject), twoLamps(s.number("vertexLights"))},
+    s.draw(*o.mesh, MyVertexProgram<basePass>{s.object(o.worldFromObject), twoLamps(s.number("vertexLights"))},
                  MyFragmentProgram<Light, basePass>{
                      s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos, light,
-                     gradientSurroundings(sky * ambient, equator * ambient, ground * ambient)});
+                     gradientSurroundings(sky * ambient, equator * ambient, ground * ambient)}, basePass ? kBasePass : kAdditivePass);
 }
 
 }  // namespace
@@ -129,9 +128,9 @@ Stage basics_07_multiple_lights()
                                         0.93f,
                                         0.96f};
                 for (const Object& o : s.objects) {
-                    drawPass<kBasePass>(s, o, sun);
-                    if (s.reaches("the lamp", lamp, o)) drawPass<kAdditivePass>(s, o, lamp);
-                    if (s.reaches("the spot", spot, o)) drawPass<kAdditivePass>(s, o, spot);
+                    drawPass<true>(s, o, sun);
+                    if (s.reaches("the lamp", lamp, o)) drawPass<false>(s, o, lamp);
+                    if (s.reaches("the spot", spot, o)) drawPass<false>(s, o, spot);
                 }
             }};
 }

@@ -112,16 +112,16 @@ struct MyFragmentProgram
 constexpr RenderState kBasePass = {};
 constexpr RenderState kAdditivePass = {.depthTest = Compare::equal, .depthWrite = false, .blend = Blend::additive};
 
-template <bool BINORMAL_PER_FRAGMENT, RenderState pass, class Light>
-void drawPass(const Scene& s, const Object& o, const Light& light)
+template <bool BINORMAL_PER_FRAGMENT, class Light>
+void drawPass(const Scene& s, const Object& o, const Light& light, const RenderState& pass)
 {
     const ObjectTransform object = s.object(o.worldFromObject);
-    s.draw<pass>(*o.mesh,
+    s.draw(*o.mesh,
                  MyVertexProgram<BINORMAL_PER_FRAGMENT>{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
                  MyFragmentProgram<BINORMAL_PER_FRAGMENT, Light>{
                      s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos, light,
                      s.mainTex, s.detailTex, s.normalMap, s.detailNormalMap, object.unity_WorldTransformParams,
-                     s.number("bumpScale"), s.number("detailBumpScale")});
+                     s.number("bumpScale"), s.number("detailBumpScale")}, pass);
 }
 
 template <bool BINORMAL_PER_FRAGMENT>
@@ -136,9 +136,9 @@ void drawObject(const Scene& s, const Object& o)
                             normalize(float3(-0.47f, -0.75f, 0.43f)),
                             0.9f,
                             0.97f};
-    drawPass<BINORMAL_PER_FRAGMENT, kBasePass>(s, o, sun);
-    if (s.reaches("the lamp", lamp, o)) drawPass<BINORMAL_PER_FRAGMENT, kAdditivePass>(s, o, lamp);
-    if (s.reaches("the spot", spot, o)) drawPass<BINORMAL_PER_FRAGMENT, kAdditivePass>(s, o, spot);
+    drawPass<BINORMAL_PER_FRAGMENT>(s, o, sun, kBasePass);
+    if (s.reaches("the lamp", lamp, o)) drawPass<BINORMAL_PER_FRAGMENT>(s, o, lamp, kAdditivePass);
+    if (s.reaches("the spot", spot, o)) drawPass<BINORMAL_PER_FRAGMENT>(s, o, spot, kAdditivePass);
 }
 
 }  // namespace

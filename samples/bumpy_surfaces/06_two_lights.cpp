@@ -110,7 +110,7 @@ Stage bumpy_surfaces_06_two_lights()
                 for (const Object& o : s.objects) {
                     const MyVertexProgram vertex = {s.object(o.worldFromObject)};
                     s.draw(*o.mesh, vertex, sun);
-                    s.draw<kForwardAdd>(*o.mesh, vertex, lamp);
+                    s.draw(*o.mesh, vertex, lamp, kForwardAdd);
                 }
             }};
 }

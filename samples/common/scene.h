@@ -130,8 +130,9 @@ public:
 
     // Frame::draw. A mesh without uv or tangents gets them here, if the vertex program reads any, and a mirrored object
     // its front faces.
-    template <RenderState state = RenderState{}, class VertexProgram, class FragmentProgram>
-    void draw(const Mesh& mesh, const VertexProgram& vertexProgram, const FragmentProgram& fragmentProgram) const;
+    template <class VertexProgram, class FragmentProgram>
+    void draw(const Mesh& mesh, const VertexProgram& vertexProgram, const FragmentProgram& fragmentProgram,
+              const RenderState& state = {}) const;
 
     // Whether a light reaches an object; if not, its pass is to be left out, and explain says so.
     template <class Light>
@@ -158,6 +159,7 @@ public:
     const Mesh& withTangents(const Mesh& mesh) const;
 
 private:
+    const Mesh& prepare(const Mesh& drawn, std::span<const Field> vertexData, const float4x4* worldFromObject) const;
     void cut(const Viewport& viewport, const Rectangle& scissor) const;
     void leftOut(const std::string& name, const Object& object) const;
 
@@ -167,24 +169,16 @@ private:
     std::map<std::string, glm::vec4> values;
 };
 
-template <RenderState state, class VertexProgram, class FragmentProgram>
-void Scene::draw(const Mesh& drawnMesh, const VertexProgram& vertexProgram,
-                 const FragmentProgram& fragmentProgram) const
+template <class VertexProgram, class FragmentProgram>
+void Scene::draw(const Mesh& drawnMesh, const VertexProgram& vertexProgram, const FragmentProgram& fragmentProgram,
+                 const RenderState& state) const
 {
-    using VertexData = relief::detail::VertexDataFor<VertexProgram>;
-    constexpr bool readsTangents = hasField<TANGENT, VertexData>();
-    constexpr bool readsUvs =
-        hasField<TEXCOORD<0, Float>, VertexData>() || hasField<TEXCOORD<0, float2>, VertexData>() ||
-        hasField<TEXCOORD<0, float3>, VertexData>() || hasField<TEXCOORD<0, float4>, VertexData>();
-    bool mirrored = false;
+    const float4x4* worldFromObject = nullptr;
     if constexpr (requires { vertexProgram.object.worldFromObject; }) {
-        const glm::mat4 worldFromObject = firstLane(vertexProgram.object.worldFromObject);
-        log.drawn.push_back({{&drawnMesh, worldFromObject}, log.viewport, log.scissor});
-        mirrored = mirrorSign(worldFromObject) < 0.0f;
+        worldFromObject = &vertexProgram.object.worldFromObject;
     }
-    frame.setFrontCounterClockwise(mirrored);
-    const Mesh& complete = readsTangents ? withTangents(drawnMesh) : readsUvs ? withUvs(drawnMesh) : drawnMesh;
-    frame.draw<state>(complete, vertexProgram, fragmentProgram);
+    const Mesh& complete = prepare(drawnMesh, kFields<relief::detail::VertexDataFor<VertexProgram>>, worldFromObject);
+    frame.draw(complete, vertexProgram, fragmentProgram, state);
 }
 
 template <class Light>

@@ -79,13 +79,13 @@ struct frag
 // The base pass fills the depth buffer; an additive pass adds its light where that very depth is seen.
 constexpr RenderState kAdditivePass = {.depthTest = Compare::equal, .depthWrite = false, .blend = Blend::additive};
 
-template <RenderState pass>
-void drawPass(const Scene& s, const float3& ambient, const float3& lightColor0, const float4& worldSpaceLightPos0)
+void drawPass(const Scene& s, const float3& ambient, const float3& lightColor0, const float4& worldSpaceLightPos0,
+              const RenderState& pass)
 {
-    s.draw<pass>(s.mesh, vert{s.object(s.objects[0].worldFromObject)},
+    s.draw(s.mesh, vert{s.object(s.objects[0].worldFromObject)},
                  frag{s.worldSpaceCameraPos, ambient, lightColor0, worldSpaceLightPos0, s.mainTex, s.normalMap,
                       s.vector("mainTex_ST"), s.vector("bumpMap_ST"), s.vector("color"), s.vector("specColor"),
-                      s.vector("rimColor"), s.number("shininess"), s.number("rimPower"), s.number("glossFromRed")});
+                      s.vector("rimColor"), s.number("shininess"), s.number("rimPower"), s.number("glossFromRed")}, pass);
 }
 
 }  // namespace
@@ -107,8 +107,8 @@ Stage normal_maps_05_final_code()
             .draw = [](const Scene& s) {
                 const float3 sun = s.light.color * s.number("lightStrength");
                 const float3 lamp = float3(0.3f, 0.55f, 1.0f) * s.number("lampStrength");
-                drawPass<RenderState{}>(s, s.vector("ambient").rgb(), sun, float4(s.light.dir, 0.0f));
-                drawPass<kAdditivePass>(s, float3(0.0f), lamp, float4(s.vector("lampPosition").xyz(), 1.0f));
+                drawPass(s, s.vector("ambient").rgb(), sun, float4(s.light.dir, 0.0f), {});
+                drawPass(s, float3(0.0f), lamp, float4(s.vector("lampPosition").xyz(), 1.0f), kAdditivePass);
             }};
 }
 

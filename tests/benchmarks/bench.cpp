@@ -12,7 +12,9 @@
 #include <benchmark/benchmark.h>
 
 #include "commands.h"
+#include "pipeline/instruments.h"
 #include "scenes.h"
+#include "pipeline/workers.h"
 
 namespace relief::samples {
 
@@ -30,7 +32,7 @@ double programAlone(const Frame& frame, const Statistics& statistics)
     double best = 1e9;
     for (int i = 0; i < 3; ++i) {
         const auto begin = std::chrono::steady_clock::now();
-        benchmark::DoNotOptimize(frame.shadeAlone(statistics.blocksShaded));
+        benchmark::DoNotOptimize(shadeAlone(frame, statistics.blocksShaded));
         best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
     return best;
@@ -38,7 +40,7 @@ double programAlone(const Frame& frame, const Statistics& statistics)
 
 void measure(benchmark::State& state, const BenchScene& scene, int threads)
 {
-    Expected<Framebuffer> target = Framebuffer::create(kWidth, kHeight, ColorFormat::rgba8);
+    Expected<Framebuffer> target = Framebuffer::create(kWidth, kHeight, Format::rgba8);
     Frame frame(*target, {.threads = threads});
     frame.clear({0.1f, 0.1f, 0.1f, 1.0f});
     const std::unique_ptr<SceneData> data = scene.record(frame, kWidth, kHeight);

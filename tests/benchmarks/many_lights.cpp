@@ -153,12 +153,12 @@ std::shared_ptr<const void> recordManyLights(Frame& frame, int width, int height
             frame.draw(floor->piece, vertexProgram, AllLightsFragmentProgram<true>{eye, sun, &floor->lamps});
             continue;
         }
-        frame.draw<kBasePass>(floor->piece, vertexProgram, OneLightFragmentProgram<DirectionalLight>{eye, sun});
+        frame.draw(floor->piece, vertexProgram, OneLightFragmentProgram<DirectionalLight>{eye, sun}, kBasePass);
         const Bounds bounds = transformed(boundsOf(floor->piece), worldFromObject);
         for (const Lamp& lamp : floor->lamps) {
             if (!lightReaches(lamp.light(), bounds)) continue;
-            frame.draw<kAdditivePass>(floor->piece, vertexProgram,
-                                      OneLightFragmentProgram<PointLight>{eye, lamp.light()});
+            frame.draw(floor->piece, vertexProgram,
+                                      OneLightFragmentProgram<PointLight>{eye, lamp.light()}, kAdditivePass);
         }
     }
     return floor;

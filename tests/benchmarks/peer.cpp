@@ -16,6 +16,7 @@
 #include "cost.h"
 #include "first_frame.h"
 #include "twins.h"
+#include "pipeline/workers.h"
 
 namespace relief::samples {
 
@@ -96,7 +97,7 @@ const BenchScene& sceneOf(const Twin& twin)
 
 Expected<std::unique_ptr<Pair>> prepare(const Row& row, int threads, Mesa& mesa)
 {
-    Expected<Framebuffer> target = Framebuffer::create(row.size.width, row.size.height, ColorFormat::rgba8);
+    Expected<Framebuffer> target = Framebuffer::create(row.size.width, row.size.height, Format::rgba8);
     if (!target) return tl::unexpected(target.error());
     auto pair = std::make_unique<Pair>(std::move(*target), threads, sceneOf(row.twin), mesa);
     if (!pair->data->problem.empty()) return fail(pair->data->problem);
@@ -181,7 +182,7 @@ Expected<std::string> comparePictures(const Setting& setting)
 // What a first frame takes of Relief: Mesa is not even loaded.
 Expected<void> drawRelief(const Row& row, int threads)
 {
-    Expected<Framebuffer> target = Framebuffer::create(row.size.width, row.size.height, ColorFormat::rgba8);
+    Expected<Framebuffer> target = Framebuffer::create(row.size.width, row.size.height, Format::rgba8);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = threads});
     const auto data = sceneOf(row.twin).record(frame, row.size.width, row.size.height);

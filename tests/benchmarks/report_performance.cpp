@@ -6,6 +6,7 @@
 #include "cost.h"
 #include "report.h"
 #include "scalings.h"
+#include "pipeline/workers.h"
 
 namespace relief::samples {
 

@@ -8,6 +8,7 @@
 #include "child_process.h"
 #include "many_lights.h"
 #include "scenes.h"
+#include "pipeline/workers.h"
 
 namespace relief::benchmarks {
 
@@ -130,7 +131,7 @@ double seconds(Frame& frame, Statistics& statistics)
 // Numbers with spaces between them, as drawPoint() reads them.
 Expected<std::string> drawnHere(const Point& point)
 {
-    Expected<Framebuffer> target = Framebuffer::create(point.size.width, point.size.height, ColorFormat::rgba8);
+    Expected<Framebuffer> target = Framebuffer::create(point.size.width, point.size.height, Format::rgba8);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = point.threads});
     frame.clear(kBackground);

@@ -141,8 +141,8 @@ std::unique_ptr<SceneData> layers(Frame& frame, int count)
         data->layers.push_back({1.0f - part, {part, 0.5f, 0.25f, 1.0f}});
     }
     for (const Layer& layer : data->layers) {
-        frame.draw<RenderState{.cull = Cull::none}>(data->mesh, ScreenVertexProgram{layer.depth},
-                                                    ConstantFragmentProgram{broadcast(layer.color)});
+        frame.draw(data->mesh, ScreenVertexProgram{layer.depth},
+                                                    ConstantFragmentProgram{broadcast(layer.color)}, RenderState{.cull = Cull::none});
     }
     return data;
 }
@@ -209,7 +209,7 @@ std::unique_ptr<SceneData> smallTriangles(Frame& frame, int width, int height)
             mesh.indices.push_back(i + corner);
         }
     }
-    frame.draw<RenderState{.cull = Cull::none}>(mesh, SmallVertexProgram{}, UvFragmentProgram{});
+    frame.draw(mesh, SmallVertexProgram{}, UvFragmentProgram{}, RenderState{.cull = Cull::none});
     return data;
 }
 

@@ -66,9 +66,9 @@ auto kernel(const sampler2D& sampler)
 
 Outcome outcomeOf(const sampler2D& sampler, const Reference& exact)
 {
-    const FetchCounters before = fetchCounters;
+    const FetchCounters before = shading.fetches;
     const Columns colors = evaluate<2>(exact.uv, kernel(sampler));
-    const double taps = static_cast<double>(fetchCounters.taps - before.taps),
+    const double taps = static_cast<double>(shading.fetches.taps - before.taps),
                  count = static_cast<double>(exact.pixels.size());
     ErrorSum all, ellipse, scenes[5];
     double differences = 0.0;

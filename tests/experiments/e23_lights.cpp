@@ -134,9 +134,9 @@ struct Picture
 
     explicit Picture(const Way& w) : way(w), lights(lightsOver(w.lights, w.height)), mesh(flatGrid(w.cells))
     {
-        const ColorFormat format = way.bits == 8 ? ColorFormat::rgba8 : ColorFormat::rgba32f;
+        const Format format = way.bits == 8 ? Format::rgba8 : Format::rgba32f;
         target =
-            std::make_shared<Framebuffer>(std::move(*Framebuffer::create(kSize, kSize, format, DepthStorage::keep)));
+            std::make_shared<Framebuffer>(std::move(*Framebuffer::create(kSize, kSize, format, Store::keep)));
         const std::size_t step = way.inPasses ? 1 : lights.size();
         for (std::size_t i = 0; i < lights.size(); i += step) {
             if (i == 0 || way.bits == 16)
@@ -144,11 +144,11 @@ struct Picture
             const Lights part(lights, i, i + step);
             if (i == 0) frames.back()->clear({0, 0, 0, 1});
             if (way.perVertex) {
-                frames.back()->draw<kFirst>(mesh, LightPerVertex{part}, ShowColor{});
+                frames.back()->draw(mesh, LightPerVertex{part}, ShowColor{}, kFirst);
             } else if (i == 0) {
-                frames.back()->draw<kFirst>(mesh, PlaceProgram{}, LightPerFragment{part});
+                frames.back()->draw(mesh, PlaceProgram{}, LightPerFragment{part}, kFirst);
             } else {
-                frames.back()->draw<kAdded>(mesh, PlaceProgram{}, LightPerFragment{part});
+                frames.back()->draw(mesh, PlaceProgram{}, LightPerFragment{part}, kAdded);
             }
         }
     }

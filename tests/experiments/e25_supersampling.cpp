@@ -95,7 +95,7 @@ struct Supersampled
     {
         large->frame.reset();
         large->frame.clear({0, 0, 0, 1});
-        large->frame.draw<RenderState{.cull = Cull::none}>(half.mesh, VertexProgram{}, FragmentProgram{});
+        large->frame.draw(half.mesh, VertexProgram{}, FragmentProgram{}, RenderState{.cull = Cull::none});
         large->frame.run();
         const glm::vec4* pixels = large->target.color32f().data();
         for (int y = 0; y < kSide; ++y) {

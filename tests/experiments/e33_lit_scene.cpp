@@ -118,19 +118,19 @@ struct Choice
     Decode decode;
 };
 
-template <RenderState pass, class Light>
-void drawPass(const Scene& s, const Object& o, const Choice& choice, const Light& light)
+template <class Light>
+void drawPass(const Scene& s, const Object& o, const Choice& choice, const Light& light, const RenderState& pass)
 {
     const auto filtered = [&](sampler2D sampler) {
         sampler.filter = choice.filter;
         sampler.maxAnisotropy = choice.anisotropy;
         return sampler;
     };
-    s.draw<pass>(*o.mesh, VertexProgram{s.object(o.worldFromObject), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
+    s.draw(*o.mesh, VertexProgram{s.object(o.worldFromObject), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
                  FragmentProgram<Light>{choice.lighting, choice.decode, s.vector("tint"), s.number("metallic"),
                                         s.number("smoothness"), s.worldSpaceCameraPos, light, filtered(s.mainTex),
                                         filtered(s.detailTex), filtered(s.normalMap), filtered(s.detailNormalMap),
-                                        s.number("bumpScale"), s.number("detailBumpScale")});
+                                        s.number("bumpScale"), s.number("detailBumpScale")}, pass);
 }
 
 // The stage's objects under the stage's sun and lamp.
@@ -144,8 +144,8 @@ void drawScene(const PreparedStage& stage, Frame& frame, const Choice& choice)
     const DirectionalLight sun = {s.light.color * s.number("sunStrength"), s.light.dir};
     const PointLight lamp = {float3(0.25f, 0.5f, 1.0f) * s.number("lightStrength"), {-0.7f, 0.9f, -0.9f}, 1.6f};
     for (const Object& o : s.objects) {
-        drawPass<RenderState{}>(s, o, choice, sun);
-        if (s.reaches("the lamp", lamp, o)) drawPass<kAdditive>(s, o, choice, lamp);
+        drawPass(s, o, choice, sun, {});
+        if (s.reaches("the lamp", lamp, o)) drawPass(s, o, choice, lamp, kAdditive);
     }
 }
 
@@ -166,7 +166,7 @@ struct Picture
 
 Picture drawn(const PreparedStage& stage, const Choice& choice)
 {
-    Framebuffer target = *Framebuffer::create(choice.width, choice.height, ColorFormat::rgba32f);
+    Framebuffer target = *Framebuffer::create(choice.width, choice.height, Format::rgba32f);
     Frame frame(target);
     drawScene(stage, frame, choice);
     frame.run();
@@ -233,7 +233,7 @@ struct Subject
 // What frames of one size are drawn into, in turn.
 struct Screen
 {
-    Screen(int width, int height) : target(*Framebuffer::create(width, height, ColorFormat::rgba8Srgb)) {}
+    Screen(int width, int height) : target(*Framebuffer::create(width, height, Format::rgba8Srgb)) {}
     Framebuffer target;
     Frame frame{target, {.threads = 1}};
 };

@@ -14,14 +14,14 @@ struct SmallFrame
     Framebuffer target;
     Frame frame;
 
-    SmallFrame(int width, int height, ColorFormat format = ColorFormat::rgba32f,
+    SmallFrame(int width, int height, Format format = Format::rgba32f,
                const FrameOptions& options = {.threads = 1})
-        : target(std::move(*Framebuffer::create(width, height, format, DepthStorage::keep))), frame(target, options)
+        : target(std::move(*Framebuffer::create(width, height, format, Store::keep))), frame(target, options)
     {
     }
 };
 
-inline std::shared_ptr<SmallFrame> smallFrame(int width, int height, ColorFormat format = ColorFormat::rgba32f,
+inline std::shared_ptr<SmallFrame> smallFrame(int width, int height, Format format = Format::rgba32f,
                                               const FrameOptions& options = {.threads = 1})
 {
     return std::make_shared<SmallFrame>(width, height, format, options);

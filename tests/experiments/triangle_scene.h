@@ -124,12 +124,12 @@ inline constexpr RenderState kCounted = {
 // A frame of striped triangles, or one that counts how many cover each pixel.
 inline std::shared_ptr<SmallFrame> framed(const TriangleScene& triangles, const FrameOptions& options, bool counts)
 {
-    const auto f = smallFrame(kSceneSize, kSceneSize, ColorFormat::rgba32f, options);
+    const auto f = smallFrame(kSceneSize, kSceneSize, Format::rgba32f, options);
     f->frame.clear({0, 0, 0, 0});
     if (counts)
-        f->frame.draw<scene::kCounted>(triangles.mesh, scene::Place{}, scene::One{});
+        f->frame.draw(triangles.mesh, scene::Place{}, scene::One{}, scene::kCounted);
     else
-        f->frame.draw<scene::kSolid>(triangles.mesh, scene::Place{}, scene::Stripes{});
+        f->frame.draw(triangles.mesh, scene::Place{}, scene::Stripes{}, scene::kSolid);
     return f;
 }
 

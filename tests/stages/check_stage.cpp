@@ -25,7 +25,7 @@ Expected<std::string> expectedHash(const Stage& stage)
 
 Expected<void> checkPicture(const Stage& stage)
 {
-    const Expected<Framebuffer> target = renderForGolden(stage, ColorFormat::rgba8Srgb);
+    const Expected<Framebuffer> target = renderForGolden(stage, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
     return checkGolden(*target, goldenPath(stage), std::filesystem::current_path() / "golden_failures");
 }
@@ -49,7 +49,7 @@ Expected<void> checkHash(const Stage& stage)
     const Expected<std::string> expected = expectedHash(stage);
     if (!expected) return tl::unexpected(expected.error());
     for (const FrameOptions& options : everyKindOfFrame()) {
-        const Expected<Framebuffer> target = renderForGolden(stage, ColorFormat::rgba32f, options);
+        const Expected<Framebuffer> target = renderForGolden(stage, Format::rgba32f, options);
         if (!target) return tl::unexpected(target.error());
         const std::string hash = hexadecimal(hashOf(*target));
         if (hash == *expected) continue;

@@ -10,8 +10,8 @@ int main()
     using namespace relief::samples;
     std::string hashes;
     for (const Stage& stage : allStages()) {
-        const Expected<Framebuffer> picture = renderForGolden(stage, ColorFormat::rgba8Srgb);
-        const Expected<Framebuffer> floats = renderForGolden(stage, ColorFormat::rgba32f);
+        const Expected<Framebuffer> picture = renderForGolden(stage, Format::rgba8Srgb);
+        const Expected<Framebuffer> floats = renderForGolden(stage, Format::rgba32f);
         const Expected<void> written =
             picture ? updateGolden(*picture, goldenPath(stage)) : Expected<void>(tl::unexpected(picture.error()));
         if (!written || !floats) {

@@ -1,0 +1,231 @@
+// A draw's two programs as the pipeline sees them: tables made from their structs, and two functions that run them on
+// lanes. This is all that is compiled with a program. Everything else of the pipeline is compiled once, in the engine.
+//
+//     VertexData  ->  vertex program  ->  Interpolators  ->  fragment program  ->  float4
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "hlsl/signature.h"
+#include "pipeline/interpolate.h"
+#include "texture/shading_scope.h"
+
+namespace relief {
+
+// A fragment program that takes this as its second parameter may throw pixels away: discard(alpha < 0.5f).
+class Discard
+{
+public:
+    void operator()(Mask where) { discarded |= where; }
+    Mask discarded = false;
+};
+
+// --- what runs ---
+
+// kLanes vertices: what the streams hold, four words for each field of VertexData, and what the vertex program makes of
+// them: the position, and as many components as the interpolators have.
+struct VertexLanes
+{
+    Float in[kMaxFields][4];
+    float4 position;
+    Float components[kMaxComponents];
+};
+
+// A block of pixels that a fragment program runs on.
+struct ShadedBlock
+{
+    Float edge[3];       // the edge functions at its pixels
+    float4 color;        // what the program gives
+    Mask discarded;      // what it throws away
+    Mask live;           // pixels whose result counts
+    unsigned quads;      // those with such a pixel, whole
+    int x, y;            // of its upper left pixel, in the target
+    int index;           // in the tile
+    int triangle;        // in the batch
+    unsigned coverage;   // pixels within the triangle
+};
+
+// The components of a triangle's three corners.
+struct TriangleCorners
+{
+    const float* components[3];
+};
+
+struct Programs
+{
+    std::span<const Field> vertexData, interpolators;
+    int components;  // to interpolate: all but SV_POSITION's
+    bool discards;
+
+    void (*shadeVertices)(const void* vertexProgram, VertexLanes& vertices);
+
+    // Blocks of one batch; `corners` has an element for each of its triangles.
+    void (*shadeBlocks)(const void* fragmentProgram, std::span<ShadedBlock> blocks, const TriangleBatch& batch,
+                        const TriangleCorners* corners);
+};
+
+// A program, or anything else, whose type is forgotten.
+using ErasedProgram = std::unique_ptr<const void, void (*)(const void*)>;
+
+template <class Program>
+ErasedProgram eraseProgram(const Program& program)
+{
+    return {new Program(program), [](const void* p) { delete static_cast<const Program*>(p); }};
+}
+
+namespace detail {
+
+template <class VertexData, class Interpolators, class VertexProgram>
+[[gnu::flatten]] void shadeVertices(const void* vertexProgram, VertexLanes& vertices)
+{
+    VertexData data;
+    int field = 0;
+    forEachField(data, [&]<class F>(F& value) {
+        for (int c = 0; c < kComponents<typename F::Value>; ++c)
+            setWord(component(static_cast<typename F::Value&>(value), c), vertices.in[field][c]);
+        ++field;
+    });
+    Interpolators result = (*static_cast<const VertexProgram*>(vertexProgram))(data);
+    int slot = 0;
+    forEachField(result, [&]<class F>(F& value) {
+        if constexpr (F::kIsPosition) {
+            vertices.position = value;
+        } else {
+            for (int c = 0; c < kComponents<typename F::Value>; ++c)
+                vertices.components[slot++] = wordOf(component(static_cast<typename F::Value&>(value), c));
+        }
+    });
+}
+
+template <class Interpolators, class FragmentProgram>
+[[gnu::flatten]] void shadeBlocks(const void* fragmentProgram, std::span<ShadedBlock> blocks,
+                                  const TriangleBatch& batch, const TriangleCorners* corners)
+{
+    const FragmentProgram& program = *static_cast<const FragmentProgram*>(fragmentProgram);
+    CornerComponents<interpolatedComponents(FieldsOf<Interpolators>{})> components;
+    TriangleWeights triangle;
+    int current = -1;
+    for (ShadedBlock& block : blocks) {
+        if (block.triangle != current) {
+            current = block.triangle;
+            const auto& [a, b, c] = corners[current].components;
+            components.set(a, b, c);
+            triangle.set(batch, current);
+        }
+        shading.activeLanes = block.quads;
+        const auto input = [&] {
+            return interpolate<Interpolators>(triangle, components, block.edge, block.coverage, block.x, block.y);
+        };
+        if constexpr (std::is_invocable_r_v<float4, const FragmentProgram&, Interpolators, Discard&>) {
+            Discard discard;
+            block.color = program(input(), discard);
+            block.discarded = discard.discarded;
+        } else {
+            block.color = program(input());
+        }
+    }
+}
+
+// --- what a program must look like; a failure names the sentence that is not met ---
+
+// The struct that a vertex program takes; void if it is no vertex program.
+template <class Operator>
+struct VertexDataOf
+{
+    using Type = void;
+};
+template <class Result, class Program, class VertexData>
+struct VertexDataOf<Result (Program::*)(VertexData) const>
+{
+    using Type = std::remove_cvref_t<VertexData>;
+};
+template <class Result, class Program, class VertexData>
+struct VertexDataOf<Result (Program::*)(VertexData) const noexcept>
+{
+    using Type = std::remove_cvref_t<VertexData>;
+};
+template <class VertexProgram>
+constexpr auto vertexDataOf()
+{
+    if constexpr (requires { &VertexProgram::operator(); }) {
+        return std::type_identity<typename VertexDataOf<decltype(&VertexProgram::operator())>::Type>{};
+    } else {
+        return std::type_identity<void>{};  // a template, or several of them
+    }
+}
+template <class VertexProgram>
+using VertexDataFor = typename decltype(vertexDataOf<VertexProgram>())::type;
+
+template <class FragmentProgram, class Interpolators>
+inline constexpr bool kTakesInterpolators =
+    std::is_invocable_r_v<float4, const FragmentProgram&, Interpolators> ||
+    std::is_invocable_r_v<float4, const FragmentProgram&, Interpolators, Discard&>;
+
+template <class FragmentProgram, class Interpolators>
+constexpr bool checkInterpolators()
+{
+    using Fields = FieldsOf<Interpolators>;
+    constexpr bool hasOnePosition = positionCount(Fields{}) == 1;
+    constexpr bool isFewEnough = interpolatedComponents(Fields{}) <= kMaxComponents;
+    constexpr bool namesOnce = !namesTwice(Fields{});
+    constexpr bool integersFlat = integersAreFlat(Fields{});
+    static_assert(hasOnePosition,
+                  "Interpolators must have exactly one SV_POSITION: the vertex program's clip-space position");
+    static_assert(isFewEnough, "Interpolators may have at most 128 components");
+    static_assert(namesOnce, "a semantic and its index may stand only once among the Interpolators");
+    static_assert(integersFlat, "integers among the Interpolators must be nointerpolation<...>");
+    if constexpr (hasOnePosition && isFewEnough && namesOnce && integersFlat) {
+        constexpr bool takesInterpolators = kTakesInterpolators<FragmentProgram, Interpolators>;
+        static_assert(takesInterpolators,
+                      "the fragment program must take the Interpolators that the vertex "
+                      "program returns, and return float4");
+        return takesInterpolators;
+    }
+    return false;
+}
+
+// Whether two programs and their structs belong together. A mistake is one sentence in the compiler's output: every
+// check has a name, which clang prints, and what would fail for the same reason is not compiled after it.
+template <class VertexProgram, class FragmentProgram>
+constexpr bool checkPrograms()
+{
+    using VertexData = VertexDataFor<VertexProgram>;
+    constexpr bool isVertexProgram = !std::is_void_v<VertexData>;
+    static_assert(isVertexProgram, "a vertex program must have: Interpolators operator()(VertexData v) const");
+    if constexpr (isVertexProgram) {
+        using Interpolators = std::remove_cvref_t<std::invoke_result_t<const VertexProgram&, VertexData>>;
+        constexpr bool vertexDataIsSemantics = fieldCount<VertexData>() >= 0;
+        constexpr bool interpolatorsAreSemantics = fieldCount<Interpolators>() >= 0;
+        static_assert(vertexDataIsSemantics,
+                      "every field of VertexData (at most 12, no arrays, no base class) must be a semantic: "
+                      "POSITION, NORMAL, TANGENT, TEXCOORD<n, float2>, COLOR<n, float4>, SV_VertexID, SV_InstanceID");
+        static_assert(interpolatorsAreSemantics,
+                      "every field of Interpolators (at most 12, no arrays, no base class) must be a semantic: "
+                      "SV_POSITION, TEXCOORD<n, float4>, COLOR<n, float4>");
+        if constexpr (vertexDataIsSemantics && interpolatorsAreSemantics) {
+            constexpr bool vertexDataHasNoScreen = positionCount(FieldsOf<VertexData>{}) == 0;
+            constexpr bool vertexDataNamesOnce = !namesTwice(FieldsOf<VertexData>{});
+            static_assert(vertexDataHasNoScreen, "VertexData holds POSITION; SV_POSITION is what the program gives");
+            static_assert(vertexDataNamesOnce, "a semantic and its index may stand only once in VertexData");
+            return vertexDataHasNoScreen && vertexDataNamesOnce && checkInterpolators<FragmentProgram, Interpolators>();
+        }
+    }
+    return false;
+}
+
+template <class VertexProgram, class FragmentProgram, class VertexData = VertexDataFor<VertexProgram>,
+          class Interpolators = std::remove_cvref_t<std::invoke_result_t<const VertexProgram&, VertexData>>>
+inline constexpr Programs kPrograms = {
+    kFields<VertexData>,
+    kFields<Interpolators>,
+    interpolatedComponents(FieldsOf<Interpolators>{}),
+    std::is_invocable_r_v<float4, const FragmentProgram&, Interpolators, Discard&>,
+    shadeVertices<VertexData, Interpolators, VertexProgram>,
+    shadeBlocks<Interpolators, FragmentProgram>,
+};
+
+}  // namespace detail
+
+}  // namespace relief

@@ -1,0 +1,35 @@
+// What a block is shaded in: which of its lanes count, and where its texture fetches are counted. The pipeline sets it
+// for every block; texture fetches look at it. Each thread has one.
+#pragma once
+
+#include "lanes/mask.h"
+#include "texture/fetch_counters.h"
+
+namespace relief {
+
+struct Shading
+{
+    // The quads with a pixel whose result counts, whole. Values exist in the other lanes too, but nothing depends on
+    // them, so a texture fetch need not follow them to far mip levels.
+    unsigned activeLanes = kAllLanes;
+
+    FetchCounters fetches;
+};
+
+inline constinit thread_local Shading shading;
+
+// Everything that may run in the middle of a block and has nothing to do with it, such as making a mip level, holds one
+// of these: all lanes count, and what is fetched is nobody's.
+class ShadingScope
+{
+public:
+    ShadingScope() : outer(shading) { shading = {}; }
+    ~ShadingScope() { shading = outer; }
+    ShadingScope(const ShadingScope&) = delete;
+    ShadingScope& operator=(const ShadingScope&) = delete;
+
+private:
+    Shading outer;
+};
+
+}  // namespace relief
