@@ -121,6 +121,16 @@ inline Int inRows(Int a)
     (std::make_integer_sequence<int, kLanes>());
 }
 
+// From there back.
+inline Int fromRows(Int a)
+{
+    return [a]<int... i>(std::integer_sequence<int, i...>)
+    {
+        return Int(__builtin_shufflevector(a.value, a.value, laneY(i) * kBlockWidth + laneX(i)...));
+    }
+    (std::make_integer_sequence<int, kLanes>());
+}
+
 // Every lane's pixel, counted from the block's upper left one.
 inline Int laneXs()
 {

@@ -31,14 +31,22 @@ struct TriangleInTile
     }
 };
 
+// Of one run of blocks.
+struct Counts
+{
+    unsigned blocks = 0, quads = 0, pixels = 0, hidden = 0, invalid = 0;
+};
+
 // What of a draw's state a block asks for.
 struct BlockState
 {
     Compare depthTest;
+    Blend blend;
     bool usesDepth, depthWrite, discards;
 
     BlockState(const Draw& draw, const Tile& tile)
         : depthTest(tile.hasDepth() ? draw.state.depthTest : Compare::always),
+          blend(draw.state.blend),
           usesDepth(tile.hasDepth() && (depthTest != Compare::always || draw.state.depthWrite)),
           depthWrite(tile.hasDepth() && draw.state.depthWrite),
           discards(draw.programs->discards)
@@ -47,54 +55,65 @@ struct BlockState
 };
 
 // Writes the depth of a block's live pixels.
-void writeDepth(const BlockState& state, const TriangleWeights& triangle, const ShadedBlock& block, Float depth,
-                Float old, Tile& tile)
+void writeDepth(const BlockState& state, const TriangleWeights& triangle, const ShadedBlock& block, Mask live,
+                Float depth, Float old, Tile& tile)
 {
-    if (!state.depthWrite || none(block.live)) return;
-    select(block.live, depth, old).store(tile.depth(block.index));
-    updateBounds(state.depthTest, triangle.nearest, triangle.farthest,
-                 !state.discards && block.coverage == kAllLanes, tile.bounds(block.index));
+    if (!state.depthWrite || none(live)) return;
+    select(live, depth, old).store(tile.depth(block.index));
+    updateBounds(state.depthTest, triangle.nearest, triangle.farthest, !state.discards && block.coverage == kAllLanes,
+                 tile.bounds(block.index));
 }
 
 // Before the program runs: which pixels pass the depth test. Their depth is written here, too, unless the program may
 // throw them away afterwards. Returns whether there is anything to shade.
-bool testEarly(const BlockState& state, const TriangleWeights& triangle, ShadedBlock& block, Tile& tile,
-               Statistics& statistics)
+bool testEarly(const BlockState& state, const TriangleInTile& triangle, ShadedBlock& block, Tile& tile, Counts& counts)
 {
-    const auto hidden = [&](int pixels) { statistics.pixelsHidden += static_cast<unsigned>(pixels); };
-    block.live = Mask::fromBits(block.coverage);
-    if (state.usesDepth) {
-        if (leavesOut::hidden &&
-            isHidden(state.depthTest, triangle.nearest, triangle.farthest, tile.bounds(block.index))) {
-            hidden(countBits(block.coverage));
-            return false;
-        }
-        const Float depth = triangle.depth(block.edge), old = Float::load(tile.depth(block.index));
-        block.live &= compareDepth(state.depthTest, depth, old);
-        if (!state.discards) writeDepth(state, triangle, block, depth, old, tile);
-        hidden(countBits(block.coverage) - count(block.live));
-        if (leavesOut::hidden && none(block.live)) return false;
+    block.live = block.coverage;
+    if (leavesOut::hidden && state.usesDepth &&
+        isHidden(state.depthTest, triangle.weights.nearest, triangle.weights.farthest, tile.bounds(block.index))) {
+        counts.hidden += static_cast<unsigned>(countBits(block.coverage));
+        return false;
     }
-    block.quads = wholeQuads(leavesOut::hidden ? block.live.bits() : block.coverage);
-    statistics.blocksShaded += 1;
-    statistics.quadsShaded += static_cast<unsigned>(countBits(block.quads)) / 4;
-    statistics.pixelsShaded += static_cast<unsigned>(count(block.live));
+    Float edge[3];
+    triangle.edges.at(block.x, block.y, edge);
+    edge[0].store(block.edge[0]);
+    edge[1].store(block.edge[1]);
+    edge[2].store(block.edge[2]);
+    if (state.usesDepth) {
+        const Float depth = triangle.weights.depth(edge), old = Float::load(tile.depth(block.index));
+        const Mask live = Mask::fromBits(block.coverage) & compareDepth(state.depthTest, depth, old);
+        block.live = live.bits();
+        if (!state.discards) writeDepth(state, triangle.weights, block, live, depth, old, tile);
+        counts.hidden += static_cast<unsigned>(countBits(block.coverage) - countBits(block.live));
+        if (leavesOut::hidden && block.live == 0) return false;
+    }
+    block.quads = wholeQuads(leavesOut::hidden ? block.live : block.coverage);
+    counts.blocks += 1;
+    counts.quads += static_cast<unsigned>(countBits(block.quads)) / 4;
+    counts.pixels += static_cast<unsigned>(countBits(block.live));
     return true;
 }
 
-// After the program has run.
-void merge(const Draw& draw, const BlockState& state, const TriangleWeights& triangle, ShadedBlock& block, Tile& tile,
-           Statistics& statistics)
+// What a discarding program has left of a block: its depth is written now.
+void testLate(const BlockState& state, const TriangleWeights& triangle, ShadedBlock& block, Tile& tile)
 {
-    if (state.discards) {
-        block.live &= !block.discarded;
-        if (state.usesDepth) {
-            writeDepth(state, triangle, block, triangle.depth(block.edge), Float::load(tile.depth(block.index)), tile);
-        }
+    block.live &= ~block.discarded;
+    if (!state.usesDepth) return;
+    const Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
+    writeDepth(state, triangle, block, Mask::fromBits(block.live), triangle.depth(edge),
+               Float::load(tile.depth(block.index)), tile);
+}
+
+template <Format format>
+void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, Counts& counts)
+{
+    for (const ShadedBlock& block : blocks) {
+        const Mask live = Mask::fromBits(block.live);
+        float4 color(Float::load(block.color[0]), Float::load(block.color[1]), Float::load(block.color[2]),
+                     Float::load(block.color[3]));
+        counts.invalid += static_cast<unsigned>(sanitizeColor(color, live));
+        mergeColor<format>(blend, tile.color(block.index), color, live);
     }
-    if (!tile.hasColor()) return;
-    statistics.invalidColors += static_cast<unsigned>(sanitizeColor(block.color, block.live));
-    mergeColor(tile.colorFormat(), draw.state.blend, tile.color(block.index), block.color, block.live);
 }
 
 }  // namespace
@@ -108,6 +127,7 @@ void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const T
     std::array<ShadedBlock, kBlocksPerGroup> group;
     std::array<TriangleCorners, kLanes> corners;
     TriangleInTile triangle;
+    Counts counts;
     for (auto next = blocks.begin(); next != blocks.end();) {
         std::size_t count = 0;
         for (; next != blocks.end() && count < groupSize; ++next) {
@@ -124,15 +144,21 @@ void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const T
             block.index = tile.blockAt(next->x, next->y);
             block.triangle = next->triangle;
             block.coverage = next->coverage;
-            triangle.edges.at(block.x, block.y, block.edge);
-            if (testEarly(state, triangle.weights, block, tile, statistics)) ++count;
+            if (testEarly(state, triangle, block, tile, counts)) ++count;
         }
         if (!runsProgram || count == 0) continue;
         const std::span<ShadedBlock> shaded(group.data(), count);
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), shaded, batch, corners.data());
-        for (ShadedBlock& block : shaded) merge(draw, state, triangle.weights, block, tile, statistics);
+        if (state.discards) testLate(state, triangle.weights, group[0], tile);
+        if (!tile.hasColor()) continue;
+        withFormat(tile.colorFormat(), [&]<Format format>() { mergeBlocks<format>(shaded, state.blend, tile, counts); });
     }
     shading.activeLanes = kAllLanes;
+    statistics.blocksShaded += counts.blocks;
+    statistics.quadsShaded += counts.quads;
+    statistics.pixelsShaded += counts.pixels;
+    statistics.pixelsHidden += counts.hidden;
+    statistics.invalidColors += counts.invalid;
 }
 
 }  // namespace relief

@@ -1,6 +1,8 @@
 // From linear colours in lanes to the words that a target's format stores, and back.
 #pragma once
 
+#include <array>
+
 #include "hlsl/intrinsics.h"
 #include "pipeline/framebuffer.h"
 #include "texture/color_space.h"
@@ -62,48 +64,52 @@ inline Float fromHalf(Int half)
     return asFloat(asInt(magnitude) | (half & 0x8000) << 16);
 }
 
-// A block's colours as `words` of the format: the first words of all lanes, then the second ones.
-inline void encodeColor(Format format, const float4& color, Int (&words)[4])
+// A block's colours as words of the format: the first words of all lanes, then the second ones.
+template <Format format>
+std::array<Int, static_cast<std::size_t>(wordsPerPixel(format))> encodeColor(const float4& color)
 {
-    switch (format) {
-        case Format::rgba8:
-            words[0] = packRgba8(color);
-            return;
-        case Format::rgba8Srgb:
-            words[0] = packRgba8(encodeSrgb(color));
-            return;
-        case Format::rgba16f:
-            words[0] = toHalf(color.x) | toHalf(color.y) << 16;
-            words[1] = toHalf(color.z) | toHalf(color.w) << 16;
-            return;
-        case Format::rgba32f:
-            for (int c = 1; c < 4; ++c) words[c] = asInt(color[c]);
-            [[fallthrough]];
-        case Format::r32f:
-        case Format::depth32f:
-            words[0] = asInt(color.x);
-            return;
-    }
+    if constexpr (format == Format::rgba8) return {packRgba8(color)};
+    if constexpr (format == Format::rgba8Srgb) return {packRgba8(encodeSrgb(color))};
+    if constexpr (format == Format::rgba16f)
+        return {toHalf(color.x) | toHalf(color.y) << 16, toHalf(color.z) | toHalf(color.w) << 16};
+    if constexpr (format == Format::rgba32f) return {asInt(color.x), asInt(color.y), asInt(color.z), asInt(color.w)};
+    if constexpr (format == Format::r32f || format == Format::depth32f) return {asInt(color.x)};
 }
 
 // Back again. What a format does not have is (0, 0, 0, 1).
-inline float4 decodeColor(Format format, const Int (&words)[4])
+template <Format format>
+float4 decodeColor(const std::array<Int, static_cast<std::size_t>(wordsPerPixel(format))>& words)
+{
+    if constexpr (format == Format::rgba8) return unpackRgba8(words[0]);
+    if constexpr (format == Format::rgba8Srgb) return decodeSrgb8(words[0]);
+    if constexpr (format == Format::rgba16f)
+        return {fromHalf(words[0] & 0xffff), fromHalf(shiftRightLogical(words[0], 16)),
+                fromHalf(words[1] & 0xffff), fromHalf(shiftRightLogical(words[1], 16))};
+    if constexpr (format == Format::rgba32f)
+        return {asFloat(words[0]), asFloat(words[1]), asFloat(words[2]), asFloat(words[3])};
+    if constexpr (format == Format::r32f || format == Format::depth32f)
+        return {asFloat(words[0]), Float(0.0f), Float(0.0f), Float(1.0f)};
+}
+
+// Calls function.operator()<format>().
+template <class Function>
+auto withFormat(Format format, const Function& function)
 {
     switch (format) {
         case Format::rgba8:
-            return unpackRgba8(words[0]);
+            return function.template operator()<Format::rgba8>();
         case Format::rgba8Srgb:
-            return decodeSrgb8(words[0]);
+            return function.template operator()<Format::rgba8Srgb>();
         case Format::rgba16f:
-            return {fromHalf(words[0] & 0xffff), fromHalf(shiftRightLogical(words[0], 16)),
-                    fromHalf(words[1] & 0xffff), fromHalf(shiftRightLogical(words[1], 16))};
-        case Format::rgba32f:
-            return {asFloat(words[0]), asFloat(words[1]), asFloat(words[2]), asFloat(words[3])};
+            return function.template operator()<Format::rgba16f>();
         case Format::r32f:
+            return function.template operator()<Format::r32f>();
+        case Format::rgba32f:
+            return function.template operator()<Format::rgba32f>();
         case Format::depth32f:
             break;
     }
-    return {asFloat(words[0]), Float(0.0f), Float(0.0f), Float(1.0f)};
+    return function.template operator()<Format::depth32f>();
 }
 
 // Whether a format holds 0 ... 1 only: blending limits the source first.

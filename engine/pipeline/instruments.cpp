@@ -64,15 +64,16 @@ float shadeSample(const Draw& draw, const Sample& sample, std::uint64_t times)
     block.triangle = 0;
     block.coverage = sample.block.coverage;
     block.quads = wholeQuads(block.coverage);
-    edges.at(block.x, block.y, block.edge);
+    Float edge[3];
+    edges.at(block.x, block.y, edge);
+    for (int k = 0; k < 3; ++k) edge[k].store(block.edge[k]);
     std::array<ShadedBlock, 16> group;
     group.fill(block);
     float sum = 0.0f;
     for (std::uint64_t rest = times; rest > 0;) {
         const std::size_t n = std::min<std::uint64_t>(rest, group.size());
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), {group.data(), n}, batch, &corners);
-        const float4& color = group[n - 1].color;
-        sum += color.x[0] + color.y[0] + color.z[0] + color.w[0];
+        for (const float(&channel)[kLanes] : group[n - 1].color) sum += channel[0];
         rest -= n;
     }
     shading.activeLanes = kAllLanes;

@@ -45,14 +45,15 @@ public:
     // Of the block whose upper left pixel is (x, y).
     void at(int x, int y, Float (&edge)[3]) const
     {
-        for (int k = 0; k < 3; ++k) {
-            if (small) {
+        if (small) {
+            for (int k = 0; k < 3; ++k) {
                 const std::uint32_t steps = static_cast<std::uint32_t>(stepX[k]) * static_cast<std::uint32_t>(x) +
                                             static_cast<std::uint32_t>(stepY[k]) * static_cast<std::uint32_t>(y);
                 edge[k] = Float(smallLanes[k] + static_cast<std::int32_t>(steps));
-            } else {
-                edge[k] = toFloat(largeLanes[k] + Double(largeStepX[k] * x + largeStepY[k] * y));
             }
+        } else {
+            for (int k = 0; k < 3; ++k)
+                edge[k] = toFloat(largeLanes[k] + Double(largeStepX[k] * x + largeStepY[k] * y));
         }
     }
 

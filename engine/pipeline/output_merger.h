@@ -91,18 +91,18 @@ inline int sanitizeColor(float4& color, Mask live)
 }
 
 // Blends the colours of a block's live pixels into `stored`, its words in a tile. Colours are linear.
-inline void mergeColor(Format format, Blend blend, std::int32_t* stored, float4 color, Mask live)
+template <Format format>
+void mergeColor(Blend blend, std::int32_t* stored, float4 color, Mask live)
 {
-    const int count = wordsPerPixel(format);
-    Int old[4];
-    for (int i = 0; i < count; ++i) old[i] = Int::load(stored + i * kLanes);
-    if (blend != Blend::off) {
-        color = blendColors(blend, isUnorm(format) ? saturate(color) : color, decodeColor(format, old));
+    constexpr std::size_t count = static_cast<std::size_t>(wordsPerPixel(format));
+    std::array<Int, count> old;
+    for (std::size_t i = 0; i < count; ++i) old[i] = Int::load(stored + i * kLanes);
+    if (blend != Blend::off) [[unlikely]] {
+        color = blendColors(blend, isUnorm(format) ? saturate(color) : color, decodeColor<format>(old));
         if (!isUnorm(format)) sanitizeColor(color, live);  // sums may overflow
     }
-    Int words[4];
-    encodeColor(format, color, words);
-    for (int i = 0; i < count; ++i) select(live, words[i], old[i]).store(stored + i * kLanes);
+    const std::array<Int, count> words = encodeColor<format>(color);
+    for (std::size_t i = 0; i < count; ++i) select(live, words[i], old[i]).store(stored + i * kLanes);
 }
 
 }  // namespace relief

@@ -33,18 +33,19 @@ struct VertexLanes
     Float components[kMaxComponents];
 };
 
-// A block of pixels that a fragment program runs on.
+// A block of pixels that a fragment program runs on. Lanes lie here as plain numbers, to be loaded and stored one vector
+// at a time: g++ 12 would copy a struct of them in smaller pieces, which the next load of a whole vector has to wait for.
 struct ShadedBlock
 {
-    Float edge[3];       // the edge functions at its pixels
-    float4 color;        // what the program gives
-    Mask discarded;      // what it throws away
-    Mask live;           // pixels whose result counts
-    unsigned quads;      // those with such a pixel, whole
-    int x, y;            // of its upper left pixel, in the target
-    int index;           // in the tile
-    int triangle;        // in the batch
-    unsigned coverage;   // pixels within the triangle
+    alignas(Float) float edge[3][kLanes];   // the edge functions at its pixels
+    alignas(Float) float color[4][kLanes];  // what the program gives
+    unsigned discarded;                     // what it throws away, a bit per lane
+    unsigned live;                          // pixels whose result counts
+    unsigned quads;                         // those with such a pixel, whole
+    unsigned coverage;                      // pixels within the triangle
+    int x, y;                               // of its upper left pixel, in the target
+    int index;                              // in the tile
+    int triangle;                           // in the batch
 };
 
 // The components of a triangle's three corners.
@@ -99,6 +100,30 @@ template <class VertexData, class Interpolators, class VertexProgram>
     });
 }
 
+template <class Interpolators, class FragmentProgram, int components>
+void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle,
+                const CornerComponents<components>& corners, ShadedBlock& block)
+{
+    shading.activeLanes = block.quads;
+    const auto input = [&] {
+        const Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
+        return interpolate<Interpolators>(triangle, corners, edge, block.coverage, block.x, block.y);
+    };
+    const auto store = [&](const float4& color) {
+        color.x.store(block.color[0]);
+        color.y.store(block.color[1]);
+        color.z.store(block.color[2]);
+        color.w.store(block.color[3]);
+    };
+    if constexpr (std::is_invocable_r_v<float4, const FragmentProgram&, Interpolators, Discard&>) {
+        Discard discard;
+        store(program(input(), discard));
+        block.discarded = discard.discarded.bits();
+    } else {
+        store(program(input()));
+    }
+}
+
 template <class Interpolators, class FragmentProgram>
 [[gnu::flatten]] void shadeBlocks(const void* fragmentProgram, std::span<ShadedBlock> blocks,
                                   const TriangleBatch& batch, const TriangleCorners* corners)
@@ -106,25 +131,14 @@ template <class Interpolators, class FragmentProgram>
     const FragmentProgram& program = *static_cast<const FragmentProgram*>(fragmentProgram);
     CornerComponents<interpolatedComponents(FieldsOf<Interpolators>{})> components;
     TriangleWeights triangle;
-    int current = -1;
-    for (ShadedBlock& block : blocks) {
-        if (block.triangle != current) {
-            current = block.triangle;
-            const auto& [a, b, c] = corners[current].components;
-            components.set(a, b, c);
-            triangle.set(batch, current);
-        }
-        shading.activeLanes = block.quads;
-        const auto input = [&] {
-            return interpolate<Interpolators>(triangle, components, block.edge, block.coverage, block.x, block.y);
-        };
-        if constexpr (std::is_invocable_r_v<float4, const FragmentProgram&, Interpolators, Discard&>) {
-            Discard discard;
-            block.color = program(input(), discard);
-            block.discarded = discard.discarded;
-        } else {
-            block.color = program(input());
-        }
+    for (auto next = blocks.begin(); next != blocks.end();) {
+        const int current = next->triangle;
+        const auto& [a, b, c] = corners[current].components;
+        components.set(a, b, c);
+        triangle.set(batch, current);
+        do {
+            shadeBlock<Interpolators>(program, triangle, components, *next);
+        } while (++next != blocks.end() && next->triangle == current);
     }
 }
 

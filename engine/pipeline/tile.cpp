@@ -21,38 +21,78 @@ bool clearValue(const Attachment& attachment, const Clear& clear, std::int32_t (
     return clear.color.has_value();
 }
 
-// Copies blocks of pixels, row after row each, to the rows of an image. `words` are those of a pixel.
-template <int words>
-void storeRows(int width, int height, int blocksWide, std::size_t stride, const std::int32_t* blocks,
-               std::uint32_t* target)
+// Visits the blocks of a tile that lie in a target: visit(block, first pixel in the target, columns, rows).
+template <class Visit>
+void forEachBlock(int width, int height, int blocksWide, std::size_t stride, const Visit& visit)
 {
-    constexpr std::size_t pixelBytes = words * sizeof(std::uint32_t);
     for (int y = 0; y < height; y += kBlockHeight) {
         for (int x = 0; x < width; x += kBlockWidth) {
-            const std::int32_t* block = blocks + (y / kBlockHeight * blocksWide + x / kBlockWidth) * kLanes * words;
-            std::int32_t rows[kLanes * words];
-            if constexpr (words == 1) {
-                inRows(Int::load(block)).store(rows);
-            } else {
-                for (int i = 0; i < kLanes; ++i) {
-                    for (int c = 0; c < words; ++c)
-                        rows[(laneY(i) * kBlockWidth + laneX(i)) * words + c] = block[c * kLanes + i];
-                }
-            }
-            std::uint32_t* corner = target + (static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)) * words;
-            const auto copy = [&](int columns, int count) {
-                for (int row = 0; row < count; ++row) {
-                    std::memcpy(corner + static_cast<std::size_t>(row) * stride * words,
-                                rows + row * kBlockWidth * words, static_cast<std::size_t>(columns) * pixelBytes);
-                }
-            };
-            if (x + kBlockWidth <= width && y + kBlockHeight <= height) {
-                copy(kBlockWidth, kBlockHeight);  // with the sizes as constants
-            } else {
-                copy(std::min(kBlockWidth, width - x), std::min(kBlockHeight, height - y));
-            }
+            visit(y / kBlockHeight * blocksWide + x / kBlockWidth,
+                  static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x), std::min(kBlockWidth, width - x),
+                  std::min(kBlockHeight, height - y));
         }
     }
+}
+
+// Copies `columns` x `rows` pixels of `words` words; a whole block's with the sizes as constants.
+template <int words, class To, class From>
+void copyRows(To* to, std::size_t toStride, const From* from, std::size_t fromStride, int columns, int rows)
+{
+    static_assert(sizeof(To) == 4 && sizeof(From) == 4);
+    const auto copy = [&](int width, int height) {
+        for (int row = 0; row < height; ++row) {
+            std::memcpy(to + static_cast<std::size_t>(row) * toStride * words,
+                        from + static_cast<std::size_t>(row) * fromStride * words,
+                        static_cast<std::size_t>(width * words) * 4);
+        }
+    };
+    if (columns == kBlockWidth && rows == kBlockHeight) {
+        copy(kBlockWidth, kBlockHeight);
+    } else {
+        copy(columns, rows);
+    }
+}
+
+// The pixel of a lane among the block's, row after row.
+constexpr int pixelOf(int lane)
+{
+    return laneY(lane) * kBlockWidth + laneX(lane);
+}
+
+template <int words>
+void storeBlocks(const std::int32_t* blocks, int width, int height, int blocksWide, std::size_t stride,
+                 std::uint32_t* target)
+{
+    forEachBlock(width, height, blocksWide, stride, [&](int block, std::size_t pixel, int columns, int rows) {
+        const std::int32_t* from = blocks + block * kLanes * words;
+        std::int32_t pixels[kLanes * words];
+        if constexpr (words == 1) {
+            inRows(Int::load(from)).store(pixels);
+        } else {
+            for (int i = 0; i < kLanes; ++i) {
+                for (int c = 0; c < words; ++c) pixels[pixelOf(i) * words + c] = from[c * kLanes + i];
+            }
+        }
+        copyRows<words>(target + pixel * words, stride, pixels, kBlockWidth, columns, rows);
+    });
+}
+
+template <int words>
+void loadBlocks(std::int32_t* blocks, int width, int height, int blocksWide, std::size_t stride,
+                const std::uint32_t* target)
+{
+    forEachBlock(width, height, blocksWide, stride, [&](int block, std::size_t pixel, int columns, int rows) {
+        std::int32_t* to = blocks + block * kLanes * words;
+        std::int32_t pixels[kLanes * words] = {};
+        copyRows<words>(pixels, kBlockWidth, target + pixel * words, stride, columns, rows);
+        if constexpr (words == 1) {
+            fromRows(Int::load(pixels)).store(to);
+        } else {
+            for (int i = 0; i < kLanes; ++i) {
+                for (int c = 0; c < words; ++c) to[c * kLanes + i] = pixels[pixelOf(i) * words + c];
+            }
+        }
+    });
 }
 
 }  // namespace
@@ -89,8 +129,8 @@ void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
         std::int32_t value[4] = {};
         const bool isCleared = clearValue(target.attachments[i], clear, value);
         const bool isPartial = x + size > target.width || y + size > target.height;
-        if (isCleared || isPartial || target.words[i] == nullptr) fill(planes[i], value);
-        if (!isCleared && target.words[i] != nullptr) load(planes[i], target, target.words[i]);
+        if (isCleared || isPartial) fill(planes[i], value);
+        if (!isCleared) load(planes[i], target, target.words[i]);
     }
     if (!depthPlane) return;
     if (clear.depth) {
@@ -114,19 +154,12 @@ void Tile::fill(const Plane& plane, const std::int32_t (&value)[4])
 
 void Tile::load(const Plane& plane, const TargetMemory& target, const std::uint32_t* from)
 {
+    const auto stride = static_cast<std::size_t>(target.width);
+    const std::size_t first = static_cast<std::size_t>(originY) * stride + static_cast<std::size_t>(originX);
+    const int width = std::min(size, target.width - originX), height = std::min(size, target.height - originY);
     const int words = wordsPerPixel(plane.format);
-    for (int block = 0; block < blockCount; ++block) {
-        const int x = originX + block % blocksWide * kBlockWidth, y = originY + block / blocksWide * kBlockHeight;
-        std::int32_t* to = plane.at(block);
-        for (int i = 0; i < kLanes; ++i) {
-            const int px = x + laneX(i), py = y + laneY(i);
-            if (px >= target.width || py >= target.height) continue;
-            const std::size_t pixel =
-                static_cast<std::size_t>(py) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(px);
-            for (int c = 0; c < words; ++c)
-                to[c * kLanes + i] = static_cast<std::int32_t>(from[pixel * static_cast<std::size_t>(words) + static_cast<std::size_t>(c)]);
-        }
-    }
+    const auto loadPlane = words == 1 ? loadBlocks<1> : words == 2 ? loadBlocks<2> : loadBlocks<4>;
+    loadPlane(plane.words.get(), width, height, blocksWide, stride, from + first * static_cast<std::size_t>(words));
 }
 
 void Tile::setBounds()
@@ -145,17 +178,18 @@ void Tile::store(const TargetMemory& target) const
     for (std::size_t i = 0; i < planes.size(); ++i) {
         if (target.words[i] == nullptr) continue;
         const int words = wordsPerPixel(planes[i].format);
-        const auto storePlane = words == 1 ? storeRows<1> : words == 2 ? storeRows<2> : storeRows<4>;
-        storePlane(width, height, blocksWide, stride, planes[i].words.get(),
+        const auto storePlane = words == 1 ? storeBlocks<1> : words == 2 ? storeBlocks<2> : storeBlocks<4>;
+        storePlane(planes[i].words.get(), width, height, blocksWide, stride,
                    target.words[i] + first * static_cast<std::size_t>(words));
     }
 }
 
 void packColor(const glm::vec4& color, Format format, std::int32_t (&words)[4])
 {
-    Int lanes[4];
-    encodeColor(format, broadcast(color), lanes);
-    for (int i = 0; i < wordsPerPixel(format); ++i) words[i] = lanes[i][0];
+    withFormat(format, [&]<Format f>() {
+        const auto lanes = encodeColor<f>(broadcast(color));
+        for (std::size_t i = 0; i < lanes.size(); ++i) words[i] = lanes[i][0];
+    });
 }
 
 void clearRectangle(const TargetMemory& target, const Rectangle& pixels, const Clear& clear)
