@@ -18,8 +18,10 @@
 #include <stb/stb_image_write.h>
 
 #include "file.h"
+#include "texture/full_palette.h"
 #include "texture/jpeg_check.h"
 #include "texture/tga_check.h"
+#include "texture/unsupported.h"
 
 namespace relief {
 namespace {
@@ -108,6 +110,29 @@ std::string_view lastReason()
     return reason.size() < 4 || reason.ends_with(kUnknownChunk) ? kUnknownChunk : reason;
 }
 
+// stb's words for HDR files that are intact, but of other numbers than RGBE or with another row or column first.
+bool isUnsupported(std::string_view reason)
+{
+    return reason == "unsupported format" || reason == "unsupported data layout";
+}
+
+tl::unexpected<Error> failUnsupported(const std::string& name, const std::string& what)
+{
+    return fail(name + ": is not supported (" + what + "); convert it to PNG");
+}
+
+// Each row the other way round.
+Image8 mirrored(Image8 image)
+{
+    const auto rowLength = static_cast<std::size_t>(image.width) * 4;
+    for (std::size_t row = 0; row < image.pixels.size(); row += rowLength) {
+        for (std::size_t left = row, right = row + rowLength - 4; left < right; left += 4, right -= 4) {
+            std::swap_ranges(&image.pixels[left], &image.pixels[left] + 4, &image.pixels[right]);
+        }
+    }
+    return image;
+}
+
 // Runs one of stb's load functions on the file and copies the pixels out of stb's memory.
 template <class Channel, class Load>
 Expected<ImageFile> decode(const std::string& name, const Bytes& bytes, Size size, Load load)
@@ -120,6 +145,7 @@ Expected<ImageFile> decode(const std::string& name, const Bytes& bytes, Size siz
         load(&kSourceCallbacks, &source, &width, &height, &channelsInFile, STBI_rgb_alpha), stbi_image_free);
     const bool isImage = pixels || lastReason() != kNotAnImage;
     if (source.truncated && isImage) return fail(name + ": is truncated; copy or export it again");
+    if (!pixels && isUnsupported(lastReason())) return failUnsupported(name, std::string(lastReason()));
     if (!pixels) {
         return fail(name + ": is damaged (" + std::string(lastReason()) + "); copy or export it again");
     }
@@ -165,10 +191,12 @@ Expected<void> checkWrite(const std::filesystem::path& path, int width, int heig
 
 Expected<ImageFile> readImage(const std::filesystem::path& path)
 {
-    const Expected<Bytes> file = readFile(path);
+    Expected<Bytes> file = readFile(path);
     if (!file) return tl::unexpected(file.error());
-    const Bytes& bytes = *file;
+    Bytes& bytes = *file;
     const std::string name = path.string();
+    if (const std::string what = unsupportedFeature(bytes); !what.empty()) return failUnsupported(name, what);
+    fillPalette(bytes);
     if (!jpegTablesFit(bytes)) return fail(name + ": is damaged (bad Huffman table); copy or export it again");
 
     const int length = static_cast<int>(bytes.size());  // at most kMaxFileBytes
@@ -197,7 +225,9 @@ Expected<ImageFile> readImage(const std::filesystem::path& path)
     // An HDR file cannot hold NaN or infinity: its largest number is 255 * 2^119, and that fits a float.
     if (isHdr) return decode<float>(name, bytes, size, stbi_loadf_from_callbacks);
     if (is16Bit) return decode<std::uint16_t>(name, bytes, size, stbi_load_16_from_callbacks);
-    return decode<std::uint8_t>(name, bytes, size, stbi_load_from_callbacks);
+    Expected<ImageFile> image = decode<std::uint8_t>(name, bytes, size, stbi_load_from_callbacks);
+    if (image && tgaRunsLeftwards(bytes)) image = mirrored(std::get<Image8>(std::move(*image)));
+    return image;
 }
 
 Expected<void> writePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgba)
