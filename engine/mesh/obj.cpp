@@ -17,6 +17,7 @@
 #include "file.h"
 #include "mesh/obj_check.h"
 #include "mesh/triangulate.h"
+#include "path.h"
 
 namespace relief {
 namespace {
@@ -179,24 +180,23 @@ Mesh weld(const Gathered& gathered, std::vector<Corner> triangles)
 
 }  // namespace
 
-Expected<Mesh> readObj(const std::filesystem::path& path)
+Expected<Mesh> readObj(const std::string& path)
 {
-    const std::string name = path.string();
     const Expected<std::vector<std::uint8_t>> bytes = readFile(path);
     if (!bytes) return tl::unexpected(bytes.error());
     std::string text(bytes->begin(), bytes->end());
     blankComments(text);
     if (const Expected<void> checked = checkObj(text); !checked) {
-        return fail(name + ": " + checked.error().message);
+        return fail(path + ": " + checked.error().message);
     }
 
     Gathered gathered;
     if (!gather(text, gathered) || !referencesExist(gathered)) {
-        return fail(name + ": is damaged; export it again");
+        return fail(path + ": is damaged; export it again");
     }
     Mesh mesh = weld(gathered, cutIntoTriangles(gathered));
-    mesh.name = path.stem().string();
-    if (const Expected<void> valid = validate(mesh); !valid) return fail(name + ": " + valid.error().message);
+    mesh.name = utf8Of(pathOf(path).stem());
+    if (const Expected<void> valid = validate(mesh); !valid) return fail(path + ": " + valid.error().message);
     return mesh;
 }
 

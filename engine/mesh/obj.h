@@ -2,7 +2,7 @@
 // are passed over, so that a file becomes one mesh.
 #pragma once
 
-#include <filesystem>
+#include <string>
 
 #include "mesh/mesh.h"
 
@@ -16,6 +16,6 @@ namespace relief {
 // the file uses none, and (0,0) where only some corners have one. The mesh has no tangents, and is named like the file
 // without its extension. An error, with the line where there is one, when the file cannot be read or is not a sound OBJ
 // file (obj_check.h), or has a number that no float can hold.
-Expected<Mesh> readObj(const std::filesystem::path& path);
+Expected<Mesh> readObj(const std::string& path);
 
 }  // namespace relief
