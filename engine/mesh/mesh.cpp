@@ -53,11 +53,13 @@ Expected<void> validate(const Mesh& mesh)
     return checkLength(mesh, "normals", mesh.normals.size(), false)
         .and_then([&] { return checkLength(mesh, "uvs", mesh.uvs.size(), true); })
         .and_then([&] { return checkLength(mesh, "tangents", mesh.tangents.size(), true); })
+        .and_then([&] { return checkLength(mesh, "colours", mesh.colors.size(), true); })
         .and_then([&] { return checkIndices(mesh); })
         .and_then([&] { return checkFinite<glm::vec3>(mesh, "position", mesh.positions); })
         .and_then([&] { return checkFinite<glm::vec3>(mesh, "normal", mesh.normals); })
         .and_then([&] { return checkFinite<glm::vec2>(mesh, "uv", mesh.uvs); })
-        .and_then([&] { return checkFinite<glm::vec4>(mesh, "tangent", mesh.tangents); });
+        .and_then([&] { return checkFinite<glm::vec4>(mesh, "tangent", mesh.tangents); })
+        .and_then([&] { return checkFinite<glm::vec4>(mesh, "colour", mesh.colors); });
 }
 
 void computeNormals(Mesh& mesh)

@@ -23,6 +23,7 @@ struct Mesh
     std::vector<glm::vec2> uvs;       // as many as positions or none; (0,0) is the picture's lower left
     std::vector<glm::vec4> tangents;  // as many as positions or none; xyz along +u, w the binormal's handedness sign:
                                       // cross(normal, tangent.xyz) * tangent.w points along +v
+    std::vector<glm::vec4> colors;    // as many as positions or none; linear, 1 in alpha
     std::vector<std::uint32_t> indices;  // three per triangle
 };
 
