@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "lanes/environment.h"
 #include "mesh/ray_tree.h"
 #include "mesh/texels.h"
 
@@ -166,6 +167,7 @@ private:
 
 Expected<BakedNormalMap> bakeNormalMap(const Mesh& low, const Mesh& high, const BakeOptions& options)
 {
+    const DefaultFloatingPoint environment;
     const Expected<void> isPossible =
         checkOptions(options).and_then([&] { return checkLow(low); }).and_then([&] { return validate(high); });
     if (!isPossible) return tl::unexpected(isPossible.error());
@@ -174,6 +176,7 @@ Expected<BakedNormalMap> bakeNormalMap(const Mesh& low, const Mesh& high, const 
 
 BakedNormalMap roundedTo8Bits(BakedNormalMap map)
 {
+    const DefaultFloatingPoint environment;
     for (glm::vec3& normal : map.normals) {
         for (int axis = 0; axis < 3; ++axis) {
             const double code = std::floor((static_cast<double>(normal[axis]) * 0.5 + 0.5) * 255.0 + 0.5);
@@ -185,6 +188,7 @@ BakedNormalMap roundedTo8Bits(BakedNormalMap map)
 
 std::vector<float> rgbaOf(const BakedNormalMap& map)
 {
+    const DefaultFloatingPoint environment;
     std::vector<float> rgba;
     rgba.reserve(4 * map.normals.size());
     for (const glm::vec3& n : map.normals) {

@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "lanes/environment.h"
+
 namespace relief {
 namespace {
 
@@ -64,6 +66,7 @@ Expected<void> validate(const Mesh& mesh)
 
 void computeNormals(Mesh& mesh)
 {
+    const DefaultFloatingPoint environment;
     // In double, no finite float position is so large or so small that a cross product or its square leaves the range.
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -83,6 +86,7 @@ void computeNormals(Mesh& mesh)
 
 Mesh withMirroredUv(Mesh mesh)
 {
+    const DefaultFloatingPoint environment;
     for (glm::vec2& uv : mesh.uvs) uv.x = 1.0f - uv.x;
     for (glm::vec4& tangent : mesh.tangents) tangent = -tangent;
     return mesh;

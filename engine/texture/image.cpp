@@ -18,6 +18,7 @@
 #include <stb/stb_image_write.h>
 
 #include "file.h"
+#include "lanes/environment.h"
 #include "texture/full_palette.h"
 #include "texture/jpeg_check.h"
 #include "texture/tga_check.h"
@@ -191,6 +192,7 @@ Expected<void> checkWrite(const std::string& path, int width, int height, std::s
 
 Expected<ImageFile> readImage(const std::string& path)
 {
+    const DefaultFloatingPoint environment;
     Expected<Bytes> file = readFile(path);
     if (!file) return tl::unexpected(file.error());
     Bytes& bytes = *file;

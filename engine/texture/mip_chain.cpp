@@ -8,6 +8,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "lanes/environment.h"
+
 namespace relief {
 namespace {
 
@@ -154,6 +156,7 @@ void MipLevel::fillFrame()
 
 MipLevel coarserLevel(TexelFormat format, const MipLevel& fine)
 {
+    const DefaultFloatingPoint environment;
     MipLevel coarse(format, nextSide(fine.width()), nextSide(fine.height()));
     switch (format) {
         case TexelFormat::rgba8:

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "lanes/environment.h"
+#include "lanes/settled.h"
 #include "texture/pixels.h"
 
 namespace relief {
@@ -31,6 +33,7 @@ glm::vec4 readTexel(TexelFormat format, const MipLevel& level, int x, int y)
 
 Expected<Texture> Texture::fromRgba8(int width, int height, std::span<const std::uint8_t> rgba, ColorSpace meaning)
 {
+    const DefaultFloatingPoint environment;
     if (std::string problem = problemWithPixels(width, height, rgba.size()); !problem.empty())
         return fail(std::move(problem));
     const TexelFormat format = meaning == ColorSpace::linear ? TexelFormat::rgba8 : TexelFormat::rgba16;
@@ -39,6 +42,7 @@ Expected<Texture> Texture::fromRgba8(int width, int height, std::span<const std:
 
 Expected<Texture> Texture::fromRgba16(int width, int height, std::span<const std::uint16_t> rgba, ColorSpace meaning)
 {
+    const DefaultFloatingPoint environment;
     if (std::string problem = problemWithPixels(width, height, rgba.size()); !problem.empty())
         return fail(std::move(problem));
     return Texture(TexelFormat::rgba16, levelFromRgba16(width, height, rgba, meaning));
@@ -46,6 +50,7 @@ Expected<Texture> Texture::fromRgba16(int width, int height, std::span<const std
 
 Expected<Texture> Texture::fromRgbaFloat(int width, int height, std::span<const float> rgba)
 {
+    const DefaultFloatingPoint environment;
     if (std::string problem = problemWithPixels(width, height, rgba.size()); !problem.empty())
         return fail(std::move(problem));
     return Texture(TexelFormat::rgba32Float, levelFromRgbaFloat(width, height, rgba));
@@ -53,6 +58,7 @@ Expected<Texture> Texture::fromRgbaFloat(int width, int height, std::span<const 
 
 Expected<Texture> Texture::fromLevels(TexelFormat format, int width, int height, MakeLevel make)
 {
+    const DefaultFloatingPoint environment;
     const auto numbers = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
     if (std::string problem = problemWithPixels(width, height, numbers); !problem.empty())
         return fail(std::move(problem));
@@ -111,11 +117,13 @@ Texture::Texture(TexelFormat format, MipLevel finest)
 
 glm::vec4 Texture::texel(int x, int y) const
 {
-    return readTexel(texelFormat, level(0), x, y);
+    const DefaultFloatingPoint environment;
+    return settled(readTexel(texelFormat, level(0), x, y));
 }
 
 const MipLevel& Texture::buildLevel(int k) const
 {
+    const DefaultFloatingPoint environment;
     const std::lock_guard lock(chain->building);
     for (int i = 0; i <= k; ++i) {
         const auto at = static_cast<std::size_t>(i);
