@@ -15,6 +15,7 @@
 #include <sys/stat.h>
 #endif
 
+#include "memory.h"
 #include "path.h"
 
 namespace relief {
@@ -106,6 +107,9 @@ Expected<std::vector<std::uint8_t>> readFile(const std::string& name)
     if (size == 0) return fail(name + ": is empty; export or copy it again");
     if (size > kMaxFileBytes) {
         return fail(name + ": its " + std::to_string(size) + " bytes are more than 1 GiB; make it smaller");
+    }
+    if (!fitsInMemory(size)) {
+        return fail(name + ": its " + std::to_string(size) + " bytes do not fit into memory; make it smaller");
     }
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
     if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {

@@ -14,7 +14,7 @@ namespace relief {
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 30;  // 1 GiB: stb counts a file's bytes in an int
 
 // Every byte of a regular file. An error when it is missing, not readable, a directory or a device, empty, or longer
-// than kMaxFileBytes.
+// than kMaxFileBytes or the memory that is left.
 Expected<std::vector<std::uint8_t>> readFile(const std::string& name);
 
 // Writes the bytes to a temporary file in the folder of `name` and then renames it, so that a reader sees the old file

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "lanes/environment.h"
+#include "memory.h"
 #include "mesh/ray_tree.h"
 #include "mesh/texels.h"
 
@@ -24,6 +25,17 @@ Expected<void> checkRange(const char* field, int value, int least, int most)
                 std::to_string(least) + ".." + std::to_string(most));
 }
 
+// The map, and a number for each texel that is no triangle's, while islands are continued.
+Expected<void> checkMemory(const BakeOptions& options)
+{
+    constexpr std::uint64_t kBytesPerTexel =
+        2 * sizeof(glm::vec3) + sizeof(TexelState) + sizeof(std::uint32_t) + sizeof(std::size_t);
+    const std::uint64_t texels = static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height);
+    if (fitsInMemory(texels * kBytesPerTexel)) return {};
+    return fail("bake: a map of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
+                " texels does not fit into memory; give it a smaller width and height");
+}
+
 Expected<void> checkOptions(const BakeOptions& options)
 {
     if (!(options.distance > 0) || !std::isfinite(options.distance)) {
@@ -32,7 +44,8 @@ Expected<void> checkOptions(const BakeOptions& options)
     }
     return checkRange("width", options.width, 1, kLargestSide)
         .and_then([&] { return checkRange("height", options.height, 1, kLargestSide); })
-        .and_then([&] { return checkRange("padding", options.padding, 0, kLargestPadding); });
+        .and_then([&] { return checkRange("padding", options.padding, 0, kLargestPadding); })
+        .and_then([&] { return checkMemory(options); });
 }
 
 Expected<void> checkLow(const Mesh& low)
@@ -123,6 +136,7 @@ private:
     void continueIslands()
     {
         std::vector<std::size_t> border, vectorless;
+        vectorless.reserve(map.states.size() - map.hits - map.misses);  // growing would take three times as much
         for (std::size_t i = 0; i < map.states.size(); ++i) {
             if (map.states[i] == TexelState::background) vectorless.push_back(i);
         }

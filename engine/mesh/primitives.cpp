@@ -250,9 +250,10 @@ Mesh makeCubeSphere(int subdivisions)
 
 Mesh makeTerrain(int cellsX, int cellsZ)
 {
+    constexpr int kMaxCells = 1 << 23;
     const DefaultFloatingPoint environment;
     cellsX = std::clamp(cellsX, 1, 4096);
-    cellsZ = std::clamp(cellsZ, 1, 4096);
+    cellsZ = std::clamp(cellsZ, 1, std::min(4096, kMaxCells / cellsX));
     const auto columns = static_cast<std::size_t>(cellsX);
     const auto rows = static_cast<std::size_t>(cellsZ);
     Mesh mesh;

@@ -19,6 +19,7 @@
 
 #include "file.h"
 #include "lanes/environment.h"
+#include "memory.h"
 #include "texture/full_palette.h"
 #include "texture/jpeg_check.h"
 #include "texture/tga_check.h"
@@ -146,6 +147,10 @@ Expected<ImageFile> decode(const std::string& name, const Bytes& bytes, Size siz
         load(&kSourceCallbacks, &source, &width, &height, &channelsInFile, STBI_rgb_alpha), stbi_image_free);
     const bool isImage = pixels || lastReason() != kNotAnImage;
     if (source.truncated && isImage) return fail(name + ": is truncated; copy or export it again");
+    const auto failMemory = [&] {
+        return fail(name + ": " + toString(size) + " does not fit into memory; scale it down");
+    };
+    if (!pixels && lastReason() == "outofmem") return failMemory();
     if (!pixels && isUnsupported(lastReason())) return failUnsupported(name, std::string(lastReason()));
     if (!pixels) {
         return fail(name + ": is damaged (" + std::string(lastReason()) + "); copy or export it again");
@@ -154,6 +159,7 @@ Expected<ImageFile> decode(const std::string& name, const Bytes& bytes, Size siz
         return fail(name + ": is damaged (two different sizes); export it again");
     }
     const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
+    if (!fitsInMemory(count * sizeof(Channel))) return failMemory();
     return ImageOf<Channel>{width, height, std::vector<Channel>(pixels.get(), pixels.get() + count)};
 }
 
@@ -240,9 +246,10 @@ Expected<void> writePng(const std::string& path, int width, int height, std::spa
     Bytes png;
     const auto take = [](void* context, void* data, int size) {
         const auto* begin = static_cast<const std::uint8_t*>(data);
+        if (!fitsInMemory(static_cast<std::uint64_t>(size))) return;
         static_cast<Bytes*>(context)->assign(begin, begin + size);  // stb hands over the whole file in one call
     };
-    if (!stbi_write_png_to_func(take, &png, width, height, 4, rgba.data(), width * 4)) {
+    if (!stbi_write_png_to_func(take, &png, width, height, 4, rgba.data(), width * 4) || png.empty()) {
         return fail(path + ": not enough memory to compress the picture; scale it down");
     }
     return writeFileAtomically(path, png);
@@ -255,6 +262,9 @@ Expected<void> writePfm(const std::string& path, int width, int height, std::spa
     // PFM: "PF" is RGB, a negative scale says little-endian, and the rows go from the bottom to the top.
     const std::string header = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
     const std::size_t floatsPerRow = static_cast<std::size_t>(width) * 3;
+    if (!fitsInMemory(header.size() + rgb.size() * 4)) {
+        return fail(path + ": not enough memory for the file; scale it down");
+    }
     Bytes bytes(header.begin(), header.end());
     bytes.reserve(bytes.size() + rgb.size() * 4);
     for (std::size_t row = static_cast<std::size_t>(height); row-- > 0;) {

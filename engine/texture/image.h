@@ -35,7 +35,8 @@ inline constexpr std::uint64_t kMaxWrittenPngBytes = std::uint64_t{1} << 29;  //
 // Reads an image file of any of the formats above. Missing channels are filled as stb_image does: grey becomes
 // R = G = B, missing alpha becomes opaque; a colour that a palette does not have is black. An error when the file
 // cannot be read, is no image, is of a kind that is not supported (unsupported.h), is truncated or damaged, or is
-// larger than kMaxImageSide or kMaxDecodedBytes; sizes are checked before anything is allocated for the pixels.
+// larger than kMaxImageSide, kMaxDecodedBytes or the memory that is left; sizes are checked before anything is
+// allocated for the pixels.
 Expected<ImageFile> readImage(const std::string& path);
 
 // Writes 8-bit RGBA, row 0 on top, as PNG, through writeFileAtomically (file.h). The same pixels give the same bytes.

@@ -5,6 +5,7 @@
 
 #include "lanes/environment.h"
 #include "lanes/settled.h"
+#include "memory.h"
 #include "texture/pixels.h"
 
 namespace relief {
@@ -29,21 +30,30 @@ glm::vec4 readTexel(TexelFormat format, const MipLevel& level, int x, int y)
     return r;
 }
 
+// A texture with its levels takes a third more than the finest one.
+std::string problemWith(TexelFormat format, int width, int height, std::size_t numbers)
+{
+    std::string problem = problemWithPixels(width, height, numbers);
+    if (!problem.empty() || fitsInMemory(levelBytes(format, width, height) / 3 * 4)) return problem;
+    return "a texture of " + std::to_string(width) + "x" + std::to_string(height) +
+           " texels does not fit into memory; make it smaller";
+}
+
 }  // namespace
 
 Expected<Texture> Texture::fromRgba8(int width, int height, std::span<const std::uint8_t> rgba, ColorSpace meaning)
 {
     const DefaultFloatingPoint environment;
-    if (std::string problem = problemWithPixels(width, height, rgba.size()); !problem.empty())
-        return fail(std::move(problem));
     const TexelFormat format = meaning == ColorSpace::linear ? TexelFormat::rgba8 : TexelFormat::rgba16;
+    if (std::string problem = problemWith(format, width, height, rgba.size()); !problem.empty())
+        return fail(std::move(problem));
     return Texture(format, levelFromRgba8(width, height, rgba, meaning));
 }
 
 Expected<Texture> Texture::fromRgba16(int width, int height, std::span<const std::uint16_t> rgba, ColorSpace meaning)
 {
     const DefaultFloatingPoint environment;
-    if (std::string problem = problemWithPixels(width, height, rgba.size()); !problem.empty())
+    if (std::string problem = problemWith(TexelFormat::rgba16, width, height, rgba.size()); !problem.empty())
         return fail(std::move(problem));
     return Texture(TexelFormat::rgba16, levelFromRgba16(width, height, rgba, meaning));
 }
@@ -51,7 +61,7 @@ Expected<Texture> Texture::fromRgba16(int width, int height, std::span<const std
 Expected<Texture> Texture::fromRgbaFloat(int width, int height, std::span<const float> rgba)
 {
     const DefaultFloatingPoint environment;
-    if (std::string problem = problemWithPixels(width, height, rgba.size()); !problem.empty())
+    if (std::string problem = problemWith(TexelFormat::rgba32Float, width, height, rgba.size()); !problem.empty())
         return fail(std::move(problem));
     return Texture(TexelFormat::rgba32Float, levelFromRgbaFloat(width, height, rgba));
 }
@@ -60,7 +70,7 @@ Expected<Texture> Texture::fromLevels(TexelFormat format, int width, int height,
 {
     const DefaultFloatingPoint environment;
     const auto numbers = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
-    if (std::string problem = problemWithPixels(width, height, numbers); !problem.empty())
+    if (std::string problem = problemWith(format, width, height, numbers); !problem.empty())
         return fail(std::move(problem));
     Texture texture(format, width, height, std::move(make));
     if (texture.isConstant()) texture.firstTexel = texture.texel(0, 0);
