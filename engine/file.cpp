@@ -7,6 +7,16 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <utility>
+
+#if defined(_WIN32)
+#include <fcntl.h>
+#include <io.h>
+#include <sys/stat.h>
+#endif
+
+#include "memory.h"
+#include "path.h"
 
 namespace relief {
 namespace {
@@ -24,6 +34,30 @@ std::string systemReason(int error)
     return std::generic_category().message(error);
 }
 
+// Windows' fopen takes names in the user's code page, which lacks most letters, and ignores "x" in the mode.
+#if defined(_WIN32)
+File openToRead(const fs::path& path)
+{
+    return File(_wfopen(path.c_str(), L"rb"));
+}
+
+File createNew(const fs::path& path)
+{
+    const int descriptor = _wopen(path.c_str(), _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY, _S_IREAD | _S_IWRITE);
+    return File(descriptor < 0 ? nullptr : _fdopen(descriptor, "wb"));
+}
+#else
+File openToRead(const fs::path& path)
+{
+    return File(std::fopen(path.c_str(), "rb"));
+}
+
+File createNew(const fs::path& path)
+{
+    return File(std::fopen(path.c_str(), "wbx"));
+}
+#endif
+
 struct Temporary
 {
     File file;
@@ -31,15 +65,15 @@ struct Temporary
     int error = 0;  // errno of the last attempt where `file` is null
 };
 
-// A new file that no other thread or process has. The mode "x" fails where the name is taken, and unlike mkstemp it
-// leaves the permissions to the user's umask. The name is short, so that a long target name cannot make it too long.
+// A new file that no other thread or process has: creating it fails where the name is taken. Unlike mkstemp this leaves
+// the permissions to the user's umask. The name is short, so that a long target name cannot make it too long.
 Temporary createTemporary(const fs::path& folder)
 {
     constexpr int kAttempts = 10000;
     Temporary temporary;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         temporary.path = folder / (".relief-" + std::to_string(attempt) + ".partial");
-        temporary.file.reset(std::fopen(temporary.path.c_str(), "wbx"));
+        temporary.file = createNew(temporary.path);
         temporary.error = temporary.file ? 0 : errno;
         if (temporary.error != EEXIST) break;
     }
@@ -57,15 +91,15 @@ int writeAndClose(File file, std::span<const std::uint8_t> bytes)
 
 }  // namespace
 
-Expected<std::vector<std::uint8_t>> readFile(const fs::path& path)
+Expected<std::vector<std::uint8_t>> readFile(const std::string& name)
 {
-    const std::string name = path.string();
+    const fs::path path = pathOf(name);
     std::error_code code;
     const fs::file_status status = fs::status(path, code);
     if (fs::is_directory(status)) return fail(name + ": is a directory; name a file in it");
     if (fs::exists(status) && !fs::is_regular_file(status)) return fail(name + ": is not a regular file; name one");
 
-    File file(std::fopen(path.c_str(), "rb"));
+    const File file = openToRead(path);
     if (!file) return fail(name + ": cannot open (" + systemReason(errno) + "); check the path");
 
     const std::uintmax_t size = fs::file_size(path, code);
@@ -74,6 +108,9 @@ Expected<std::vector<std::uint8_t>> readFile(const fs::path& path)
     if (size > kMaxFileBytes) {
         return fail(name + ": its " + std::to_string(size) + " bytes are more than 1 GiB; make it smaller");
     }
+    if (!fitsInMemory(size)) {
+        return fail(name + ": its " + std::to_string(size) + " bytes do not fit into memory; make it smaller");
+    }
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
     if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
         return fail(name + ": cannot read all of it; check that nothing else is writing to it");
@@ -81,9 +118,9 @@ Expected<std::vector<std::uint8_t>> readFile(const fs::path& path)
     return bytes;
 }
 
-Expected<void> writeFileAtomically(const fs::path& path, std::span<const std::uint8_t> bytes)
+Expected<void> writeFileAtomically(const std::string& name, std::span<const std::uint8_t> bytes)
 {
-    const std::string name = path.string();
+    const fs::path path = pathOf(name);
     std::error_code code;
     const fs::file_status status = fs::status(path, code);
     if (fs::is_directory(status) || !path.has_filename()) return fail(name + ": is a directory; name a file in it");

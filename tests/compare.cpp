@@ -42,3 +42,22 @@ TEST_CASE("compare: differences are enlarged eight times and stop at 255")
     const Comparison result = compare(1, 1, actual, expected);
     CHECK(result.amplified == std::vector<std::uint8_t>{24, 255, 255, 255});
 }
+
+TEST_CASE("compare: pixels that a picture is too short for differ")
+{
+    const std::vector<std::uint8_t> expected(3 * 2 * 4, 9);
+    const std::vector<std::uint8_t> actual(4 * 4 + 1, 9);  // four pixels and a byte, and nothing to read behind it
+    const Comparison result = compare(3, 2, actual, expected);
+    CHECK(result.differing == 2);
+    REQUIRE(result.first.size() == 2);
+    CHECK(result.first[0].x == 1);
+    CHECK(result.first[0].y == 1);
+    CHECK(result.first[0].actual[0] == 9);
+    CHECK(result.first[0].actual[1] == 0);
+    CHECK(result.first[1].actual[0] == 0);
+    CHECK(result.amplified.size() == expected.size());
+    CHECK(result.amplified[5 * 4] == 72);
+    CHECK(compare(3, 2, expected, {}).differing == 6);
+    CHECK(compare(3, 2, {}, {}).differing == 6);
+    CHECK(compare(0, -1, {}, {}).same());
+}

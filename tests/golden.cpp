@@ -49,6 +49,7 @@ TEST_CASE("golden: a missing golden fails, and the picture is kept to be looked 
 {
     const TemporaryFolder folder;
     checkFails(picture(13, 7), folder / "missing.png", folder / "failures", "missing.png");
+    checkFails(picture(13, 7), folder / "missing.png", folder / "failures", "failures/missing.actual.png");
     CHECK(readImage(folder / "failures/missing.actual.png"));
 }
 
@@ -64,6 +65,7 @@ TEST_CASE("golden: a golden of another size fails")
     const TemporaryFolder folder;
     REQUIRE(updateGolden(picture(13, 8), folder / "tall.png"));
     checkFails(picture(13, 7), folder / "tall.png", folder / "failures", "is 13x8, the picture 13x7");
+    CHECK(readImage(folder / "failures/tall.actual.png"));
 }
 
 TEST_CASE("golden: one bit in one pixel fails, is named, and is shown eight times as large")
@@ -83,9 +85,30 @@ TEST_CASE("golden: one bit in one pixel fails, is named, and is shown eight time
     }
 }
 
+TEST_CASE("golden: in the folder where the program runs, no folder has to be made")
+{
+    const TemporaryFolder folder;
+    const fs::path before = fs::current_path();
+    fs::current_path(folder.path);
+    const Framebuffer target = picture(5, 3);
+    const Expected<void> updated = updateGolden(target, "plain.png");
+    CHECK_MESSAGE(updated, (updated ? "" : updated.error().message));
+    CHECK(checkGolden(target, "plain.png", "failures"));
+    CHECK_FALSE(checkGolden(target, "missing.png", ""));
+    CHECK(fs::exists("missing.actual.png"));
+    fs::current_path(before);
+}
+
+TEST_CASE("golden: a picture that cannot be kept is said to be so")
+{
+    const TemporaryFolder folder;
+    checkFails(picture(5, 3), folder / "missing.png", folder.write("file", "x"), "not written: ");
+}
+
 TEST_CASE("golden: a float target is refused, not compared")
 {
     const TemporaryFolder folder;
     const Framebuffer target = *Framebuffer::create(4, 4, Format::rgba32f);
     CHECK_FALSE(checkGolden(target, folder / "float.png", folder / "failures"));
+    CHECK_FALSE(updateGolden(target, folder / "float.png"));
 }

@@ -187,6 +187,19 @@ TEST_CASE("image: TGA and BMP, whose first row is the lowest, come with row 0 on
     CHECK(read8(folder.write("a.bmp", bmp2x2())).pixels == kRedWhiteBlueGreen);
 }
 
+TEST_CASE("image: a TGA whose rows begin at the right is not mirrored")
+{
+    const TemporaryFolder folder;
+    std::string tga = tga2x2();
+    tga[17] = 0x10;
+    const std::vector<std::uint8_t> expected = {255, 255, 255, 255, 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255};
+    CHECK(read8(folder.write("a.tga", tga)).pixels == expected);
+    // Three columns, of which the middle one stays; the top row first.
+    const std::string three = {0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 1, 0, 8, 0x30, 1, 2, 3};
+    const std::vector<std::uint8_t> grey = {3, 3, 3, 255, 2, 2, 2, 255, 1, 1, 1, 255};
+    CHECK(read8(folder.write("b.tga", three)).pixels == grey);
+}
+
 TEST_CASE("image: JPEG")
 {
     const TemporaryFolder folder;

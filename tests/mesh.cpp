@@ -87,6 +87,9 @@ TEST_CASE("mesh: validate names what is wrong")
     mesh.tangents.resize(1);
     CHECK(contains(errorOf(mesh), "1 tangents for 4 positions"));
     mesh.tangents.clear();
+    mesh.colors.resize(3);
+    CHECK(contains(errorOf(mesh), "3 colours for 4 positions"));
+    mesh.colors.clear();
     CHECK(errorOf(mesh) == "");
 
     mesh = makeQuad();
@@ -110,6 +113,10 @@ TEST_CASE("mesh: validate names what is wrong")
         mesh = makeQuad();
         mesh.tangents[0].w = bad;
         CHECK(contains(errorOf(mesh), "the tangent of vertex 0 is not finite"));
+        mesh = makeQuad();
+        mesh.colors.assign(4, glm::vec4(1));
+        mesh.colors[3].y = bad;
+        CHECK(contains(errorOf(mesh), "the colour of vertex 3 is not finite"));
     }
 }
 

@@ -133,6 +133,47 @@ TEST_CASE("obj: line ends, comments, marks and unknown words")
               .positions == expected);
 }
 
+TEST_CASE("obj: of several references to nothing the first is named, whatever comes behind")
+{
+    CHECK(contains(errorOf("f 1 2 9\nf 1 2 3\nf 1 2 12\n" + kTriangle), "line 1: there is no vertex 9 among 3"));
+    CHECK(contains(errorOf("f 1 2 3\nf 1/4 2/1 8/1\n" + kTriangle + "vt 0 0\nf 1/9 2 3\n"),
+                   "line 2: there is no vertex 8 among 3"));
+    CHECK(contains(errorOf("f 1 2 3\nf 1/4 2 3\nf 1 2 8\n" + kTriangle), "line 2: there is no uv 4 among 0"));
+}
+
+TEST_CASE("obj: normals that a face names and the file lacks are made")
+{
+    const std::vector<glm::vec3> made(3, glm::vec3(0, 0, 1));
+    CHECK(read(kTriangle + "f 1//1 2//2 3//3\n").normals == made);
+    CHECK(read(kTriangle + "vt 0 0\nf 1/1/1 2/1/1 3/1/1\n").normals == made);
+    CHECK(read(kTriangle + "f 1//-1 2//-1 3//-1\n").normals == made);
+    const Mesh some = read(kTriangle + "f 1//2 2//1 3//1\nvn 0 1 0\n");
+    CHECK(some.normals == std::vector<glm::vec3>{{0, 0, 1}, {0, 1, 0}, {0, 1, 0}});
+}
+
+TEST_CASE("obj: vertices with colours")
+{
+    const Mesh mesh = read(
+        "v 0 0 0 0.25 0.5 1\nv 1 0 0 1 0 0\nv 0 1 0\nv 1 1 0 0 0 2\nvt 0 0\nvt 1 1\n"
+        "f 1/1 2/1 3/1\nf 2/2 4/2 3/2\n");
+    REQUIRE(mesh.positions.size() == 6);
+    for (std::size_t i = 0; i < 6; ++i) {
+        const glm::vec3 p = mesh.positions[i];
+        const glm::vec4 expected = p.x == 0 && p.y == 0 ? glm::vec4(0.25f, 0.5f, 1, 1)
+                                   : p.y == 0           ? glm::vec4(1, 0, 0, 1)
+                                   : p.x == 0           ? glm::vec4(1)
+                                                        : glm::vec4(0, 0, 2, 1);
+        CHECK(mesh.colors[i] == expected);
+    }
+    CHECK(read("v 0 0 0\nv 1 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n").colors ==
+          std::vector<glm::vec4>{glm::vec4(1), {0, 0, 0, 1}, glm::vec4(1)});
+    CHECK(read(kTriangle + "f 1 2 3\n").colors.empty());
+    // A fourth number is a weight, of which nothing is made.
+    CHECK(read("v 0 0 0 2\nv 1 0 0 2\nv 0 1 0 2\nf 1 2 3\n").colors.empty());
+    CHECK(read("v 0 0 0 2\nv 1 0 0 2\nv 0 1 0 2\nf 1 2 3\n").positions == read(kTriangle + "f 1 2 3\n").positions);
+    CHECK(contains(errorOf("v 0 0 0 1 1 x\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "line 1: 'x' is not"));
+}
+
 TEST_CASE("obj: bad references name their line")
 {
     CHECK(contains(errorOf(kTriangle + "f 1 2 4\n"), "line 4: there is no vertex 4 among 3"));
@@ -141,7 +182,7 @@ TEST_CASE("obj: bad references name their line")
     CHECK(contains(errorOf("v 0 0 0\nv 1 0 0\nf -1 -2 -3\nv 0 1 0\n"), "line 3: there is no vertex -3 among 2"));
     CHECK(contains(errorOf(kTriangle + "vt 0 0\nf 1/1 2/1 3/2\n"), "line 5: there is no uv 2 among 1"));
     CHECK(contains(errorOf(kTriangle + "vt 0 0\nf 1/1 2/1 3/-2\n"), "line 5: there is no uv -2 among 1"));
-    CHECK(contains(errorOf(kTriangle + "vn 0 0 1\nf 1//1 2//1 3//7\n"), "line 5: there is no normal 7 among 1"));
+    CHECK(contains(errorOf(kTriangle + "vn 0 0 1\nf 1//1 2//1 3//0\n"), "line 5: there is no normal 0 among 1"));
     CHECK(contains(errorOf(kTriangle + "f 1/1/1 2/1/1 3/1/1\n"), "line 4: there is no uv 1 among 0"));
     CHECK(contains(errorOf(kTriangle + "f 1 2 99999999999999\n"), "line 4: '99999999999999' is not a reference"));
     for (const std::string bad :
@@ -163,8 +204,8 @@ TEST_CASE("obj: bad numbers name their line")
     CHECK(contains(errorOf("v 0 0\n" + kTriangle + "f 1 2 3\n"), "line 1: 2 numbers after 'v'"));
     CHECK(contains(errorOf("v\n" + kTriangle + "f 1 2 3\n"), "line 1: 0 numbers after 'v'"));
     CHECK(contains(errorOf("vn 1 0\n" + kTriangle + "f 1 2 3\n"), "line 1: 2 numbers after 'vn'"));
-    CHECK(contains(errorOf("v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n"), "is not finite"));
-    CHECK(contains(errorOf("v 0 0 0\nv 1e999 0 0\nv 0 1 0\nf 1 2 3\n"), "is not finite"));
+    CHECK(contains(errorOf("v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n"), "line 2: '1e39' is not a finite"));
+    CHECK(contains(errorOf("v 0 0 0\nv 1e999 0 0\nv 0 1 0\nf 1 2 3\n"), "line 2: '1e999' is not a finite"));
 }
 
 TEST_CASE("obj: bad faces and files without any")

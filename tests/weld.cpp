@@ -48,6 +48,7 @@ TEST_CASE("weld: vertices are the same if position, normal and uv are")
 TEST_CASE("weld: a vertex whose corners agree stays one, others are split in the order of use")
 {
     Mesh mesh = makeQuad();  // indices 0 3 1 3 0 2
+    mesh.colors = {glm::vec4(0.5f), glm::vec4(1), glm::vec4(1), glm::vec4(1)};
     const Mesh quad = mesh;
     const glm::vec2 a(1, 2);
     const glm::vec2 b(3, 4);
@@ -58,6 +59,7 @@ TEST_CASE("weld: a vertex whose corners agree stays one, others are split in the
     CHECK(mesh.positions[4] == quad.positions[0]);
     CHECK(mesh.normals[4] == quad.normals[0]);
     CHECK(mesh.tangents[4] == quad.tangents[0]);
+    CHECK(mesh.colors[4] == quad.colors[0]);
 }
 
 TEST_CASE("weld: vertices without a corner keep what they have, and empty streams stay empty")
@@ -68,4 +70,5 @@ TEST_CASE("weld: vertices without a corner keep what they have, and empty stream
     setPerCorner(mesh, &Mesh::uvs, {{5, 5}, {6, 6}, {7, 7}});
     CHECK(mesh.uvs == std::vector<glm::vec2>{{0, 0}, {5, 5}, {6, 6}, {7, 7}});
     CHECK(mesh.tangents.empty());
+    CHECK(mesh.colors.empty());
 }

@@ -27,7 +27,8 @@ struct Comparison
     std::string report() const;
 };
 
-// Two RGBA pictures of width * height * 4 bytes each.
+// Two RGBA pictures of width * height * 4 bytes each. A pixel that one of them is too short for differs; what is
+// missing counts as 0.
 Comparison compare(int width, int height, std::span<const std::uint8_t> actual, std::span<const std::uint8_t> expected);
 
 }  // namespace relief

@@ -1,66 +1,83 @@
 #include "check/golden.h"
 
+#include <system_error>
 #include <variant>
+#include <vector>
 
+#include "path.h"
 #include "texture/image.h"
 
 namespace relief {
 
 namespace {
 
-std::span<const std::uint8_t> bytesOf(const Framebuffer& target)
+// R, G, B, A of each pixel, whatever the order of the bytes in a word is on this machine.
+std::vector<std::uint8_t> bytesOf(const Framebuffer& target)
 {
-    return {reinterpret_cast<const std::uint8_t*>(target.color8().data()), target.color8().size_bytes()};
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(target.color8().size() * 4);
+    for (const std::uint32_t pixel : target.color8()) {
+        for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(pixel >> shift));
+    }
+    return bytes;
 }
 
+// An empty path is the folder where the program runs.
 Expected<void> makeFolder(const std::filesystem::path& folder)
 {
     std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) return fail(folder.string() + ": cannot make the folder (" + error.message() + ")");
-    return {};
+    if (!folder.empty()) std::filesystem::create_directories(folder, error);
+    if (!error) return {};
+    return fail(utf8Of(folder) + ": cannot make the folder (" + error.message() + "); choose another one");
+}
+
+std::string sizeOf(int width, int height)
+{
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+// Writes a picture to `folder`, and says where, or why not.
+std::string kept(const std::string& folder, const std::string& name, const Framebuffer& target,
+                 std::span<const std::uint8_t> pixels)
+{
+    const std::string path = utf8Of(pathOf(folder) / pathOf(name));
+    const Expected<void> written =
+        makeFolder(pathOf(folder)).and_then([&] { return writePng(path, target.width(), target.height(), pixels); });
+    return written ? "written: " + path : "not written: " + written.error().message;
 }
 
 }  // namespace
 
-Expected<void> checkGolden(const Framebuffer& target, const std::filesystem::path& golden,
-                           const std::filesystem::path& failures)
+Expected<void> checkGolden(const Framebuffer& target, const std::string& golden, const std::string& failures)
 {
-    if (target.color8().empty()) return fail(golden.string() + ": goldens are 8-bit pictures, the target is not");
+    if (target.color8().empty()) return fail(golden + ": goldens are 8-bit pictures, the target is not");
     const std::string remedy = "; look at the new picture, and if it is right: update_goldens";
-    const auto keep = [&](const char* what, std::span<const std::uint8_t> pixels) -> Expected<void> {
-        const Expected<void> made = makeFolder(failures);
-        if (!made) return made;
-        return writePng(failures / (golden.stem().string() + what), target.width(), target.height(), pixels);
-    };
+    const std::string stem = utf8Of(pathOf(golden).stem());
+    const std::vector<std::uint8_t> actual = bytesOf(target);
+    const auto keepActual = [&] { return kept(failures, stem + ".actual.png", target, actual); };
 
     const Expected<ImageFile> file = readImage(golden);
     const Image8* expected = file ? std::get_if<Image8>(&*file) : nullptr;
     if (expected == nullptr) {
-        const std::string why = file ? golden.string() + ": no 8-bit picture" : file.error().message;
-        const Expected<void> kept = keep(".actual.png", bytesOf(target));
-        return fail("no golden: " + why + remedy + (kept ? "" : " (" + kept.error().message + ")"));
+        const std::string why = file ? golden + ": no 8-bit picture" : file.error().message;
+        return fail("no golden: " + why + "; " + keepActual() + remedy);
     }
     if (expected->width != target.width() || expected->height != target.height()) {
-        return fail(golden.string() + ": is " + std::to_string(expected->width) + "x" +
-                    std::to_string(expected->height) + ", the picture " + std::to_string(target.width()) + "x" +
-                    std::to_string(target.height()) + remedy);
+        return fail(golden + ": is " + sizeOf(expected->width, expected->height) + ", the picture " +
+                    sizeOf(target.width(), target.height()) + "; " + keepActual() + remedy);
     }
-    const Comparison comparison = compare(target.width(), target.height(), bytesOf(target), expected->pixels);
+    const Comparison comparison = compare(target.width(), target.height(), actual, expected->pixels);
     if (comparison.same()) return {};
-    const Expected<void> actual = keep(".actual.png", bytesOf(target));
-    if (!actual) return actual;
-    const Expected<void> difference = keep(".difference.png", comparison.amplified);
-    if (!difference) return difference;
-    return fail(golden.string() + ": " + comparison.report() +
-                "written: " + (failures / (golden.stem().string() + ".actual.png, .difference.png")).string() + remedy);
+    return fail(golden + ": " + comparison.report() + keepActual() + "\n" +
+                kept(failures, stem + ".difference.png", target, comparison.amplified) + remedy);
 }
 
-Expected<void> updateGolden(const Framebuffer& target, const std::filesystem::path& golden)
+Expected<void> updateGolden(const Framebuffer& target, const std::string& golden)
 {
-    const Expected<void> made = makeFolder(golden.parent_path());
-    if (!made) return made;
-    return writePng(golden, target.width(), target.height(), bytesOf(target));
+    if (target.color8().empty()) return fail(golden + ": goldens are 8-bit pictures, the target is not");
+    return makeFolder(pathOf(golden).parent_path()).and_then([&] {
+        return writePng(golden, target.width(), target.height(), bytesOf(target));
+    });
 }
 
 }  // namespace relief

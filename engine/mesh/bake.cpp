@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "lanes/environment.h"
+#include "memory.h"
 #include "mesh/ray_tree.h"
 #include "mesh/texels.h"
 
@@ -23,6 +25,17 @@ Expected<void> checkRange(const char* field, int value, int least, int most)
                 std::to_string(least) + ".." + std::to_string(most));
 }
 
+// The map, and a number for each texel that is no triangle's, while islands are continued.
+Expected<void> checkMemory(const BakeOptions& options)
+{
+    constexpr std::uint64_t kBytesPerTexel =
+        2 * sizeof(glm::vec3) + sizeof(TexelState) + sizeof(std::uint32_t) + sizeof(std::size_t);
+    const std::uint64_t texels = static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height);
+    if (fitsInMemory(texels * kBytesPerTexel)) return {};
+    return fail("bake: a map of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
+                " texels does not fit into memory; give it a smaller width and height");
+}
+
 Expected<void> checkOptions(const BakeOptions& options)
 {
     if (!(options.distance > 0) || !std::isfinite(options.distance)) {
@@ -31,7 +44,8 @@ Expected<void> checkOptions(const BakeOptions& options)
     }
     return checkRange("width", options.width, 1, kLargestSide)
         .and_then([&] { return checkRange("height", options.height, 1, kLargestSide); })
-        .and_then([&] { return checkRange("padding", options.padding, 0, kLargestPadding); });
+        .and_then([&] { return checkRange("padding", options.padding, 0, kLargestPadding); })
+        .and_then([&] { return checkMemory(options); });
 }
 
 Expected<void> checkLow(const Mesh& low)
@@ -122,6 +136,7 @@ private:
     void continueIslands()
     {
         std::vector<std::size_t> border, vectorless;
+        vectorless.reserve(map.states.size() - map.hits - map.misses);  // growing would take three times as much
         for (std::size_t i = 0; i < map.states.size(); ++i) {
             if (map.states[i] == TexelState::background) vectorless.push_back(i);
         }
@@ -166,6 +181,7 @@ private:
 
 Expected<BakedNormalMap> bakeNormalMap(const Mesh& low, const Mesh& high, const BakeOptions& options)
 {
+    const DefaultFloatingPoint environment;
     const Expected<void> isPossible =
         checkOptions(options).and_then([&] { return checkLow(low); }).and_then([&] { return validate(high); });
     if (!isPossible) return tl::unexpected(isPossible.error());
@@ -174,6 +190,7 @@ Expected<BakedNormalMap> bakeNormalMap(const Mesh& low, const Mesh& high, const 
 
 BakedNormalMap roundedTo8Bits(BakedNormalMap map)
 {
+    const DefaultFloatingPoint environment;
     for (glm::vec3& normal : map.normals) {
         for (int axis = 0; axis < 3; ++axis) {
             const double code = std::floor((static_cast<double>(normal[axis]) * 0.5 + 0.5) * 255.0 + 0.5);
@@ -185,6 +202,7 @@ BakedNormalMap roundedTo8Bits(BakedNormalMap map)
 
 std::vector<float> rgbaOf(const BakedNormalMap& map)
 {
+    const DefaultFloatingPoint environment;
     std::vector<float> rgba;
     rgba.reserve(4 * map.normals.size());
     for (const glm::vec3& n : map.normals) {

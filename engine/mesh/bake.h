@@ -51,8 +51,8 @@ struct BakedNormalMap
 //
 // Halves that share their uvs, mirrored or not, get the map of the half that comes first. Normals and tangents are made
 // unit at the vertices, as vertex programs do; under a transform that is no rotation and uniform scale a shader's frame
-// is another one. An error if an option is out of range, a mesh is not valid, or `low` has triangles but no uvs, no
-// tangents, or a uv beyond +-kLargestBakedUv.
+// is another one. An error if an option is out of range, the map does not fit into memory, a mesh is not valid, or
+// `low` has triangles but no uvs, no tangents, or a uv beyond +-kLargestBakedUv.
 Expected<BakedNormalMap> bakeNormalMap(const Mesh& low, const Mesh& high, const BakeOptions& options);
 
 // The map as its file would hold it: each coordinate n as the 8-bit code nearest to (n * 0.5 + 0.5) * 255, back as

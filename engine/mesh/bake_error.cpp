@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lanes/environment.h"
 #include "lanes/math.h"
 #include "mesh/texels.h"
 
@@ -38,6 +39,7 @@ Expected<void> checkMesh(const BakedNormalMap& map, const Mesh& mesh)
 
 Expected<AngleError> bakeError(const BakedNormalMap& map, const Mesh& mesh, const DecodeOptions& options)
 {
+    const DefaultFloatingPoint environment;
     if (const Expected<void> usable = checkMesh(map, mesh); !usable) return tl::unexpected(usable.error());
     AngleError error;
     if (map.hits == 0) return error;

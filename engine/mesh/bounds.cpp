@@ -3,22 +3,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lanes/environment.h"
+#include "lanes/settled.h"
+
 namespace relief {
+
+glm::vec3 Bounds::centre() const
+{
+    const DefaultFloatingPoint environment;
+    return settled(low * 0.5f + high * 0.5f);
+}
 
 float Bounds::radius() const
 {
+    const DefaultFloatingPoint environment;
     const glm::vec3 half = high * 0.5f - low * 0.5f;
-    return std::sqrt(half.x * half.x + half.y * half.y + half.z * half.z);
+    return settled(std::sqrt(half.x * half.x + half.y * half.y + half.z * half.z));
 }
 
 float Bounds::squaredDistance(const glm::vec3& point) const
 {
+    const DefaultFloatingPoint environment;
     float sum = 0.0f;
     for (int i = 0; i < 3; ++i) {
         const float outside = std::max({low[i] - point[i], point[i] - high[i], 0.0f});
         sum += outside * outside;
     }
-    return sum;
+    return settled(sum);
 }
 
 Bounds boundsOf(const Mesh& mesh)
@@ -36,6 +47,7 @@ Bounds boundsOf(const Mesh& mesh)
 
 Bounds transformed(const Bounds& bounds, const glm::mat4& matrix)
 {
+    const DefaultFloatingPoint environment;
     Bounds moved;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec4 p = {(corner & 1) != 0 ? bounds.high.x : bounds.low.x,

@@ -11,7 +11,7 @@ struct Bounds
 {
     glm::vec3 low{0.0f}, high{0.0f};
 
-    glm::vec3 centre() const { return low * 0.5f + high * 0.5f; }
+    glm::vec3 centre() const;
     float radius() const;  // of the sphere around the box
 
     // From a point to the nearest point of the box; 0 inside.

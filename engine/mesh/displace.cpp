@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lanes/environment.h"
 #include "mesh/weld.h"
 
 namespace relief {
@@ -37,6 +38,7 @@ struct Place
 
 Expected<Mesh> displaced(Mesh base, const std::function<float(float u, float v)>& heights, float amount)
 {
+    const DefaultFloatingPoint environment;
     if (const Expected<void> valid = validate(base); !valid) return tl::unexpected(valid.error());
     if (base.uvs.empty() && !base.positions.empty()) {
         return fail("mesh '" + base.name + "': displacement needs uvs; give every vertex one (withSphericalUvs)");

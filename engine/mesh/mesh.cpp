@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "lanes/environment.h"
+
 namespace relief {
 namespace {
 
@@ -105,17 +107,18 @@ Expected<void> validate(const Mesh& mesh, int indicesPerPrimitive)
     return checkLength(mesh, "normals", mesh.normals.size(), false)
         .and_then([&] { return checkLength(mesh, "uvs", mesh.uvs.size(), true); })
         .and_then([&] { return checkLength(mesh, "tangents", mesh.tangents.size(), true); })
-        .and_then([&] { return checkLength(mesh, "colors", mesh.colors.size(), true); })
+        .and_then([&] { return checkLength(mesh, "colours", mesh.colors.size(), true); })
         .and_then([&] { return checkIndices(mesh, indicesPerPrimitive); })
         .and_then([&] { return checkFinite<glm::vec3>(mesh, "position", mesh.positions); })
         .and_then([&] { return checkFinite<glm::vec3>(mesh, "normal", mesh.normals); })
         .and_then([&] { return checkFinite<glm::vec2>(mesh, "uv", mesh.uvs); })
         .and_then([&] { return checkFinite<glm::vec4>(mesh, "tangent", mesh.tangents); })
-        .and_then([&] { return checkFinite<glm::vec4>(mesh, "color", mesh.colors); });
+        .and_then([&] { return checkFinite<glm::vec4>(mesh, "colour", mesh.colors); });
 }
 
 void computeNormals(Mesh& mesh)
 {
+    const DefaultFloatingPoint environment;
     // In double, no finite float position is so large or so small that a cross product or its square leaves the range.
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -135,6 +138,7 @@ void computeNormals(Mesh& mesh)
 
 Mesh withMirroredUv(Mesh mesh)
 {
+    const DefaultFloatingPoint environment;
     for (glm::vec2& uv : mesh.uvs) uv.x = 1.0f - uv.x;
     for (glm::vec4& tangent : mesh.tangents) tangent = -tangent;
     return mesh;

@@ -1,126 +1,57 @@
-// OBJ in four steps: check the text, let tinyobjloader gather numbers and faces, cut the faces into triangles, weld and
-// convert. tinyobjloader's own triangulation is not used: it drops or doubles parts of concave polygons, depending on
-// where in space they lie.
+// OBJ in three steps: take the text apart (obj_text.h), cut the faces into triangles, weld and convert.
 #include "mesh/obj.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include <tiny_obj_loader.h>
-
 #include "file.h"
-#include "mesh/obj_check.h"
+#include "lanes/environment.h"
+#include "mesh/obj_text.h"
 #include "mesh/triangulate.h"
+#include "path.h"
 
 namespace relief {
 namespace {
 
-constexpr std::int64_t kNone = -1;
-
-// Which position, uv and normal of the file a corner uses, counted from 0, or kNone.
-struct Corner
-{
-    std::int64_t position = kNone;
-    std::int64_t uv = kNone;
-    std::int64_t normal = kNone;
-
-    bool operator==(const Corner&) const = default;
-};
+using Corner = ObjCorner;
+constexpr std::uint32_t kNone = Corner::kNone;
 
 struct CornerHash
 {
     std::size_t operator()(const Corner& corner) const
     {
-        auto hash = static_cast<std::uint64_t>(corner.position) * 0x9e3779b97f4a7c15u;
-        hash = (hash ^ static_cast<std::uint64_t>(corner.uv)) * 0xbf58476d1ce4e5b9u;
-        hash = (hash ^ static_cast<std::uint64_t>(corner.normal)) * 0x94d049bb133111ebu;
+        auto hash = std::uint64_t{corner.position} * 0x9e3779b97f4a7c15u;
+        hash = (hash ^ corner.uv) * 0xbf58476d1ce4e5b9u;
+        hash = (hash ^ corner.normal) * 0x94d049bb133111ebu;
         return static_cast<std::size_t>(hash ^ (hash >> 32));
     }
 };
 
-// What the file holds, positions and normals already left-handed, faces still in the file's order.
-struct Gathered
-{
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec2> uvs;
-    std::vector<glm::vec3> normals;
-    std::vector<Corner> corners;           // of all faces, one face after the other
-    std::vector<std::size_t> faceLengths;  // corners per face
-};
-
 // 0 - x instead of -x, so that 0 stays +0.
-glm::vec3 leftHanded(float x, float y, float z)
+void makeLeftHanded(std::vector<glm::vec3>& vectors)
 {
-    return {0.0f - x, y, z};
-}
-
-// OBJ counts from 1, backwards from the end so far if negative, and 0 is tinyobjloader's word for "not given".
-std::int64_t resolve(int index, std::size_t countSoFar)
-{
-    if (index == 0) return kNone;
-    return index > 0 ? std::int64_t{index} - 1 : static_cast<std::int64_t>(countSoFar) + index;
-}
-
-void gatherFace(void* user, tinyobj::index_t* indices, int count)
-{
-    Gathered& gathered = *static_cast<Gathered*>(user);
-    for (int i = 0; i < count; ++i) {
-        gathered.corners.push_back({resolve(indices[i].vertex_index, gathered.positions.size()),
-                                    resolve(indices[i].texcoord_index, gathered.uvs.size()),
-                                    resolve(indices[i].normal_index, gathered.normals.size())});
-    }
-    gathered.faceLengths.push_back(static_cast<std::size_t>(count));
-}
-
-bool gather(const std::string& text, Gathered& gathered)
-{
-    tinyobj::callback_t callbacks;
-    callbacks.vertex_cb = [](void* user, float x, float y, float z, float) {
-        static_cast<Gathered*>(user)->positions.push_back(leftHanded(x, y, z));
-    };
-    callbacks.texcoord_cb = [](void* user, float u, float v, float) {
-        static_cast<Gathered*>(user)->uvs.emplace_back(u, v);
-    };
-    callbacks.normal_cb = [](void* user, float x, float y, float z) {
-        static_cast<Gathered*>(user)->normals.push_back(leftHanded(x, y, z));
-    };
-    callbacks.index_cb = gatherFace;
-    std::istringstream stream(text);
-    return tinyobj::LoadObjWithCallback(stream, callbacks, &gathered);
-}
-
-// checkObj has made sure of this; should tinyobjloader cut a line differently, it ends here and not beyond an array.
-bool referencesExist(const Gathered& gathered)
-{
-    const auto exists = [](std::int64_t index, std::size_t count) {
-        return index >= kNone && index < static_cast<std::int64_t>(count);
-    };
-    for (const Corner& corner : gathered.corners) {
-        if (corner.position == kNone || !exists(corner.position, gathered.positions.size())) return false;
-        if (!exists(corner.uv, gathered.uvs.size()) || !exists(corner.normal, gathered.normals.size())) return false;
-    }
-    return true;
+    for (glm::vec3& v : vectors) v.x = 0.0f - v.x;
 }
 
 // The corners of all triangles, reversed: negating x has turned every front into a back.
-std::vector<Corner> cutIntoTriangles(const Gathered& gathered)
+std::vector<Corner> cutIntoTriangles(const ObjText& file)
 {
     std::vector<Corner> triangles;
     std::vector<glm::vec3> polygon;
     std::size_t first = 0;
-    for (const std::size_t length : gathered.faceLengths) {
+    for (const std::uint32_t length : file.faceLengths) {
         polygon.clear();
         for (std::size_t i = first; i < first + length; ++i) {
-            polygon.push_back(gathered.positions[static_cast<std::size_t>(gathered.corners[i].position)]);
+            polygon.push_back(file.positions[file.corners[i].position]);
         }
         for (const auto& [a, b, c] : triangulate(polygon)) {
-            for (const std::uint32_t corner : {a, c, b}) triangles.push_back(gathered.corners[first + corner]);
+            for (const std::uint32_t corner : {a, c, b}) triangles.push_back(file.corners[first + corner]);
         }
         first += length;
     }
@@ -128,11 +59,11 @@ std::vector<Corner> cutIntoTriangles(const Gathered& gathered)
 }
 
 // Smooth normals, one per position of the file, so that vertices which differ only in their uv get the same.
-std::vector<glm::vec3> smoothNormals(const Gathered& gathered, const std::vector<Corner>& triangles)
+std::vector<glm::vec3> smoothNormals(const ObjText& file, const std::vector<Corner>& triangles)
 {
     Mesh mesh;
-    mesh.positions = gathered.positions;
-    for (const Corner& corner : triangles) mesh.indices.push_back(static_cast<std::uint32_t>(corner.position));
+    mesh.positions = file.positions;
+    for (const Corner& corner : triangles) mesh.indices.push_back(corner.position);
     computeNormals(mesh);
     return std::move(mesh.normals);
 }
@@ -145,19 +76,19 @@ glm::vec3 unit(glm::vec3 normal)
 }
 
 // One vertex for each different corner. A normal of length zero counts as missing.
-Mesh weld(const Gathered& gathered, std::vector<Corner> triangles)
+Mesh weld(const ObjText& file, std::vector<Corner> triangles)
 {
     bool anyUv = false;
     bool anyNormalMissing = false;
     for (Corner& corner : triangles) {
-        if (corner.normal != kNone && gathered.normals[static_cast<std::size_t>(corner.normal)] == glm::vec3(0)) {
+        if (corner.normal != kNone && file.normals[corner.normal] == glm::vec3(0)) {
             corner.normal = kNone;
         }
         anyUv = anyUv || corner.uv != kNone;
         anyNormalMissing = anyNormalMissing || corner.normal == kNone;
     }
     const std::vector<glm::vec3> computed =
-        anyNormalMissing ? smoothNormals(gathered, triangles) : std::vector<glm::vec3>();
+        anyNormalMissing ? smoothNormals(file, triangles) : std::vector<glm::vec3>();
 
     Mesh mesh;
     mesh.indices.reserve(triangles.size());
@@ -166,37 +97,29 @@ Mesh weld(const Gathered& gathered, std::vector<Corner> triangles)
         const auto [entry, isNew] = vertexOf.try_emplace(corner, static_cast<std::uint32_t>(mesh.positions.size()));
         mesh.indices.push_back(entry->second);
         if (!isNew) continue;
-        const auto position = static_cast<std::size_t>(corner.position);
-        mesh.positions.push_back(gathered.positions[position]);
-        mesh.normals.push_back(corner.normal == kNone
-                                   ? computed[position]
-                                   : unit(gathered.normals[static_cast<std::size_t>(corner.normal)]));
+        mesh.positions.push_back(file.positions[corner.position]);
+        if (!file.colors.empty()) mesh.colors.emplace_back(file.colors[corner.position], 1.0f);
+        mesh.normals.push_back(corner.normal == kNone ? computed[corner.position] : unit(file.normals[corner.normal]));
         if (!anyUv) continue;
-        mesh.uvs.push_back(corner.uv == kNone ? glm::vec2(0) : gathered.uvs[static_cast<std::size_t>(corner.uv)]);
+        mesh.uvs.push_back(corner.uv == kNone ? glm::vec2(0) : file.uvs[corner.uv]);
     }
     return mesh;
 }
 
 }  // namespace
 
-Expected<Mesh> readObj(const std::filesystem::path& path)
+Expected<Mesh> readObj(const std::string& path)
 {
-    const std::string name = path.string();
     const Expected<std::vector<std::uint8_t>> bytes = readFile(path);
     if (!bytes) return tl::unexpected(bytes.error());
-    std::string text(bytes->begin(), bytes->end());
-    blankComments(text);
-    if (const Expected<void> checked = checkObj(text); !checked) {
-        return fail(name + ": " + checked.error().message);
-    }
-
-    Gathered gathered;
-    if (!gather(text, gathered) || !referencesExist(gathered)) {
-        return fail(name + ": is damaged; export it again");
-    }
-    Mesh mesh = weld(gathered, cutIntoTriangles(gathered));
-    mesh.name = path.stem().string();
-    if (const Expected<void> valid = validate(mesh); !valid) return fail(name + ": " + valid.error().message);
+    const DefaultFloatingPoint environment;
+    Expected<ObjText> file = parseObj({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    if (!file) return fail(path + ": " + file.error().message);
+    makeLeftHanded(file->positions);
+    makeLeftHanded(file->normals);
+    Mesh mesh = weld(*file, cutIntoTriangles(*file));
+    mesh.name = utf8Of(pathOf(path).stem());
+    if (const Expected<void> valid = validate(mesh); !valid) return fail(path + ": " + valid.error().message);
     return mesh;
 }
 

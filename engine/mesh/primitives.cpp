@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lanes/environment.h"
 #include "lanes/math.h"
 
 namespace relief {
@@ -139,6 +140,7 @@ Height terrainHeight(float x, float z)
 
 Mesh makeQuad()
 {
+    const DefaultFloatingPoint environment;
     Mesh mesh;
     mesh.name = "quad";
     const Side& front = kSides[0];
@@ -152,6 +154,7 @@ Mesh makeQuad()
 
 Mesh makeCube()
 {
+    const DefaultFloatingPoint environment;
     Mesh mesh;
     mesh.name = "cube";
     for (const Side& side : kSides) {
@@ -169,6 +172,7 @@ Mesh makeCube()
 
 Mesh makeSphere(int segments, int rings)
 {
+    const DefaultFloatingPoint environment;
     segments = std::clamp(segments, 3, 1024);
     rings = std::clamp(rings, 2, 1024);
     const auto segmentCount = static_cast<std::size_t>(segments);
@@ -216,6 +220,7 @@ Mesh makeSphere(int segments, int rings)
 
 Mesh makeCubeSphere(int subdivisions)
 {
+    const DefaultFloatingPoint environment;
     subdivisions = std::clamp(subdivisions, 1, 1024);
     const auto cells = static_cast<std::size_t>(subdivisions);
     Mesh mesh;
@@ -245,8 +250,10 @@ Mesh makeCubeSphere(int subdivisions)
 
 Mesh makeTerrain(int cellsX, int cellsZ)
 {
+    constexpr int kMaxCells = 1 << 23;
+    const DefaultFloatingPoint environment;
     cellsX = std::clamp(cellsX, 1, 4096);
-    cellsZ = std::clamp(cellsZ, 1, 4096);
+    cellsZ = std::clamp(cellsZ, 1, std::min(4096, kMaxCells / cellsX));
     const auto columns = static_cast<std::size_t>(cellsX);
     const auto rows = static_cast<std::size_t>(cellsZ);
     Mesh mesh;

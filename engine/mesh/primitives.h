@@ -1,6 +1,7 @@
 // The shapes that need no file: quad, cube, two spheres and a terrain. All in object space, left-handed, Y up, front
 // faces clockwise, uv (0,0) in the lower left corner, with unit normals and with tangents along +u (mesh.h). The same
-// arguments give the same bits on every machine. Counts out of range are clamped.
+// arguments give the same bits on every machine. Counts out of range are clamped, so
+// that no shape takes more than 640 MB.
 #pragma once
 
 #include "mesh/mesh.h"
@@ -23,7 +24,8 @@ Mesh makeSphere(int segments, int rings);
 Mesh makeCubeSphere(int subdivisions);
 
 // Rolling hills over x, z in -0.5..0.5 with heights within +-0.1: (cellsX + 1) * (cellsZ + 1) vertices and two
-// triangles per cell. The hills do not depend on the number of cells. Cells are clamped to 1..4096.
+// triangles per cell. The hills do not depend on the number of cells. Cells are clamped to 1..4096, and
+// cellsZ further so that there are at most 2^23 of them.
 Mesh makeTerrain(int cellsX, int cellsZ);
 
 }  // namespace relief

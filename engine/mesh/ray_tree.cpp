@@ -9,6 +9,8 @@
 
 #include <glm/common.hpp>
 
+#include "lanes/environment.h"
+
 namespace relief {
 namespace {
 
@@ -153,6 +155,7 @@ struct RayTree::Builder
 
 RayTree::RayTree(const Mesh& mesh)
 {
+    const DefaultFloatingPoint environment;
     Builder builder(*this, mesh);
     if (builder.items.empty()) return;
     triangles.reserve(builder.items.size());
@@ -162,6 +165,7 @@ RayTree::RayTree(const Mesh& mesh)
 
 std::optional<RayHit> RayTree::firstHit(const Ray& ray) const
 {
+    const DefaultFloatingPoint environment;
     std::optional<RayHit> hit;
     if (nodes.empty()) return hit;
     const PreparedRay prepared(ray);

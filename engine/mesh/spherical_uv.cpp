@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lanes/environment.h"
 #include "lanes/math.h"
 #include "mesh/bounds.h"
 #include "mesh/weld.h"
@@ -62,6 +63,7 @@ std::array<glm::vec2, 3> joined(const std::array<Spherical, 3>& corners)
 
 Expected<Mesh> withSphericalUvs(Mesh mesh)
 {
+    const DefaultFloatingPoint environment;
     mesh.uvs.clear();
     mesh.tangents.clear();
     if (const Expected<void> valid = validate(mesh); !valid) return tl::unexpected(valid.error());

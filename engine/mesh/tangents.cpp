@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lanes/environment.h"
 #include "lanes/math.h"
 #include "mesh/edges.h"
 #include "mesh/weld.h"
@@ -270,6 +271,7 @@ std::vector<glm::vec4> Builder::tangents()
 
 Expected<std::vector<glm::vec4>> cornerTangents(const Mesh& mesh)
 {
+    const DefaultFloatingPoint environment;
     if (const Expected<void> valid = validate(mesh); !valid) return tl::unexpected(valid.error());
     if (mesh.indices.empty()) return {};
     if (mesh.uvs.empty()) {
@@ -280,6 +282,7 @@ Expected<std::vector<glm::vec4>> cornerTangents(const Mesh& mesh)
 
 Expected<Mesh> withTangents(Mesh mesh)
 {
+    const DefaultFloatingPoint environment;
     mesh.tangents.clear();
     const Expected<std::vector<glm::vec4>> tangents = cornerTangents(mesh);
     if (!tangents) return tl::unexpected(tangents.error());

@@ -7,6 +7,8 @@
 
 #include <glm/vec2.hpp>
 
+#include "lanes/environment.h"
+
 namespace relief {
 namespace {
 
@@ -63,6 +65,7 @@ bool isEar(const std::vector<glm::dvec2>& flat, const std::vector<std::uint32_t>
 
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::vec3> corners)
 {
+    const DefaultFloatingPoint environment;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     if (corners.size() < 3) return triangles;
     triangles.reserve(corners.size() - 2);

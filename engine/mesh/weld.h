@@ -88,6 +88,7 @@ void setPerCorner(Mesh& mesh, std::vector<Vector> Mesh::*stream, const std::vect
             append(mesh.normals, index);
             append(mesh.uvs, index);
             append(mesh.tangents, index);
+            append(mesh.colors, index);
             index = static_cast<std::uint32_t>(mesh.positions.size() - 1);
         } else {
             isUsed[index] = true;

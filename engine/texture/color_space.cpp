@@ -4,6 +4,9 @@
 
 #include <cstddef>
 
+#include "lanes/environment.h"
+#include "lanes/settled.h"
+
 namespace relief {
 namespace {
 
@@ -44,18 +47,21 @@ constexpr std::array<float, 256> detail::kSrgbToLinear = [] {
 
 double decodeSrgb(double encoded)
 {
-    return decode(encoded);
+    const DefaultFloatingPoint environment;
+    return settled(decode(encoded));
 }
 
 // The 8-bit codes are among the 16-bit ones: code / 255 = code * 257 / 65535.
 std::uint16_t srgbToLinear16(std::uint8_t code)
 {
-    return toUnorm16(decode(code / 255.0));
+    const DefaultFloatingPoint environment;
+    return settled(toUnorm16(decode(code / 255.0)));
 }
 
 std::uint16_t srgbToLinear16(std::uint16_t code)
 {
-    return toUnorm16(decode(code / 65535.0));
+    const DefaultFloatingPoint environment;
+    return settled(toUnorm16(decode(code / 65535.0)));
 }
 
 }  // namespace relief

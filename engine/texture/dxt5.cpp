@@ -7,6 +7,8 @@
 
 #include <stb/stb_dxt.h>
 
+#include "lanes/environment.h"
+
 namespace relief {
 namespace {
 
@@ -87,6 +89,7 @@ Dxt5Texels texelsOf(const MipLevel& level, int column, int row)
 // with alpha at 255; the alpha part takes its own 16 bytes.
 Dxt5Block encodeDxt5Block(const Dxt5Texels& texels)
 {
+    const DefaultFloatingPoint environment;
     std::array<unsigned int, 16> opaque;
     static_assert(sizeof(opaque) == sizeof(texels));
     std::memcpy(opaque.data(), texels.data(), sizeof(opaque));

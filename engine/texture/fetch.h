@@ -6,6 +6,7 @@
 // 2^23 + number, and the difference of two such floats is exact.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 
 #include "hlsl/types.h"
@@ -48,6 +49,22 @@ public:
 private:
     alignas(native::IntVector) std::int32_t indices[kLanes];
 };
+
+// A word of four bytes of memory, or of two halves, with the first one lowest: as it is, but for machines that put the
+// last one there.
+inline Int wordOfBytes(native::IntVector loaded)
+{
+    const Int word(loaded);
+    if constexpr (std::endian::native == std::endian::little) return word;
+    return shiftRightLogical(word, 24) | (shiftRightLogical(word, 8) & 0xff00) | (word << 8 & 0xff0000) | word << 24;
+}
+
+inline Int wordOfHalves(native::IntVector loaded)
+{
+    const Int word(loaded);
+    if constexpr (std::endian::native == std::endian::little) return word;
+    return shiftRightLogical(word, 16) | word << 16;
+}
 
 inline constexpr float kBias = 8388608.0f;             // 2^23
 inline constexpr std::int32_t kBiasBits = 0x4b000000;  // its bits
@@ -93,7 +110,7 @@ struct FetchRgba8
         native::IntVector words[2];
         const detail::TexelIndices indices(index);
         native::loadTransposed<native::TwoWords>(indices.from<kBytes>(level.texels()), words);
-        const Int rgba(words[0]);
+        const Int rgba = detail::wordOfBytes(words[0]);
         const auto channel = [rgba](int shift) { return Float((rgba >> shift & 255) << kSubtexelBits); };
         return {channel(0), channel(8), channel(16), channel(24)};
     }
@@ -135,7 +152,7 @@ private:
 
     static Row alongRow(const native::IntVector texels[2], Int weights)
     {
-        const Int left(texels[0]), right(texels[1]);
+        const Int left = detail::wordOfBytes(texels[0]), right = detail::wordOfBytes(texels[1]);
         const Int rg = (left & 0xffff) | right << 16;
         const Int ba = shiftRightLogical(left, 16) | (right & static_cast<std::int32_t>(0xffff0000));
         const auto lower = [weights](Int bytes) { return multiplyAddHalves(bytes & 0x00ff00ff, weights); };
@@ -155,7 +172,7 @@ struct FetchRgba16
         native::IntVector words[2];
         const detail::TexelIndices indices(index);
         native::loadTransposed<native::TwoWords>(indices.from<kBytes>(level.texels()), words);
-        const Int rg(words[0]), ba(words[1]);
+        const Int rg = detail::wordOfHalves(words[0]), ba = detail::wordOfHalves(words[1]);
         return {detail::biasedHalf(rg) - detail::kBias, detail::biasedUpperHalf(rg) - detail::kBias,
                 detail::biasedHalf(ba) - detail::kBias, detail::biasedUpperHalf(ba) - detail::kBias};
     }
@@ -184,7 +201,8 @@ struct FetchRgba16
 private:
     [[gnu::always_inline]] static float4 alongRow(const native::IntVector words[4], Float fx)
     {
-        const Int rg0(words[0]), ba0(words[1]), rg1(words[2]), ba1(words[3]);
+        const Int rg0 = detail::wordOfHalves(words[0]), ba0 = detail::wordOfHalves(words[1]);
+        const Int rg1 = detail::wordOfHalves(words[2]), ba1 = detail::wordOfHalves(words[3]);
         const auto lower = [fx](Int a, Int b) {
             return detail::mixBiased(detail::biasedHalf(a), detail::biasedHalf(b), fx);
         };

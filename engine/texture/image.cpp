@@ -18,8 +18,12 @@
 #include <stb/stb_image_write.h>
 
 #include "file.h"
+#include "lanes/environment.h"
+#include "memory.h"
+#include "texture/full_palette.h"
 #include "texture/jpeg_check.h"
 #include "texture/tga_check.h"
+#include "texture/unsupported.h"
 
 namespace relief {
 namespace {
@@ -108,6 +112,29 @@ std::string_view lastReason()
     return reason.size() < 4 || reason.ends_with(kUnknownChunk) ? kUnknownChunk : reason;
 }
 
+// stb's words for HDR files that are intact, but of other numbers than RGBE or with another row or column first.
+bool isUnsupported(std::string_view reason)
+{
+    return reason == "unsupported format" || reason == "unsupported data layout";
+}
+
+tl::unexpected<Error> failUnsupported(const std::string& name, const std::string& what)
+{
+    return fail(name + ": is not supported (" + what + "); convert it to PNG");
+}
+
+// Each row the other way round.
+Image8 mirrored(Image8 image)
+{
+    const auto rowLength = static_cast<std::size_t>(image.width) * 4;
+    for (std::size_t row = 0; row < image.pixels.size(); row += rowLength) {
+        for (std::size_t left = row, right = row + rowLength - 4; left < right; left += 4, right -= 4) {
+            std::swap_ranges(&image.pixels[left], &image.pixels[left] + 4, &image.pixels[right]);
+        }
+    }
+    return image;
+}
+
 // Runs one of stb's load functions on the file and copies the pixels out of stb's memory.
 template <class Channel, class Load>
 Expected<ImageFile> decode(const std::string& name, const Bytes& bytes, Size size, Load load)
@@ -120,6 +147,11 @@ Expected<ImageFile> decode(const std::string& name, const Bytes& bytes, Size siz
         load(&kSourceCallbacks, &source, &width, &height, &channelsInFile, STBI_rgb_alpha), stbi_image_free);
     const bool isImage = pixels || lastReason() != kNotAnImage;
     if (source.truncated && isImage) return fail(name + ": is truncated; copy or export it again");
+    const auto failMemory = [&] {
+        return fail(name + ": " + toString(size) + " does not fit into memory; scale it down");
+    };
+    if (!pixels && lastReason() == "outofmem") return failMemory();
+    if (!pixels && isUnsupported(lastReason())) return failUnsupported(name, std::string(lastReason()));
     if (!pixels) {
         return fail(name + ": is damaged (" + std::string(lastReason()) + "); copy or export it again");
     }
@@ -127,6 +159,7 @@ Expected<ImageFile> decode(const std::string& name, const Bytes& bytes, Size siz
         return fail(name + ": is damaged (two different sizes); export it again");
     }
     const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
+    if (!fitsInMemory(count * sizeof(Channel))) return failMemory();
     return ImageOf<Channel>{width, height, std::vector<Channel>(pixels.get(), pixels.get() + count)};
 }
 
@@ -147,43 +180,45 @@ tl::unexpected<Error> failHeader(const std::string& name, const Bytes& bytes)
     return tl::unexpected(image.error());
 }
 
-Expected<void> checkWrite(const std::filesystem::path& path, int width, int height, std::size_t given, int channels)
+Expected<void> checkWrite(const std::string& path, int width, int height, std::size_t given, int channels)
 {
     const std::string size = toString({width, height});
     if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) {
-        return fail(path.string() + ": cannot write " + size + " pixels; each side must be in 1.." +
+        return fail(path + ": cannot write " + size + " pixels; each side must be in 1.." +
                     std::to_string(kMaxImageSide));
     }
     const auto expected =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
     if (given == expected) return {};
-    return fail(path.string() + ": " + std::to_string(given) + " values are not a picture of " + size + "; pass " +
+    return fail(path + ": " + std::to_string(given) + " values are not a picture of " + size + "; pass " +
                 std::to_string(expected));
 }
 
 }  // namespace
 
-Expected<ImageFile> readImage(const std::filesystem::path& path)
+Expected<ImageFile> readImage(const std::string& path)
 {
-    const Expected<Bytes> file = readFile(path);
+    const DefaultFloatingPoint environment;
+    Expected<Bytes> file = readFile(path);
     if (!file) return tl::unexpected(file.error());
-    const Bytes& bytes = *file;
-    const std::string name = path.string();
-    if (!jpegTablesFit(bytes)) return fail(name + ": is damaged (bad Huffman table); copy or export it again");
+    Bytes& bytes = *file;
+    if (const std::string what = unsupportedFeature(bytes); !what.empty()) return failUnsupported(path, what);
+    fillPalette(bytes);
+    if (!jpegTablesFit(bytes)) return fail(path + ": is damaged (bad Huffman table); copy or export it again");
 
     const int length = static_cast<int>(bytes.size());  // at most kMaxFileBytes
     int width = 0;
     int height = 0;
     int channelsInFile = 0;
-    if (!stbi_info_from_memory(bytes.data(), length, &width, &height, &channelsInFile)) return failHeader(name, bytes);
+    if (!stbi_info_from_memory(bytes.data(), length, &width, &height, &channelsInFile)) return failHeader(path, bytes);
     const Size size{width, std::abs(std::int64_t{height})};  // a BMP that starts with its top row has a negative height
-    if (size.width < 1 || size.height < 1) return fail(name + ": is " + toString(size) + "; export it again");
+    if (size.width < 1 || size.height < 1) return fail(path + ": is " + toString(size) + "; export it again");
     if (size.width > kMaxImageSide || size.height > kMaxImageSide) {
-        return fail(name + ": " + toString(size) + " is larger than " + toString({kMaxImageSide, kMaxImageSide}) +
+        return fail(path + ": " + toString(size) + " is larger than " + toString({kMaxImageSide, kMaxImageSide}) +
                     "; scale it down");
     }
     if (const std::uint64_t fewest = fewestTgaBytes(bytes); bytes.size() < fewest) {
-        return fail(name + ": is truncated (" + std::to_string(bytes.size()) + " bytes, but " + toString(size) +
+        return fail(path + ": is truncated (" + std::to_string(bytes.size()) + " bytes, but " + toString(size) +
                     " takes at least " + std::to_string(fewest) + "); copy or export it again");
     }
 
@@ -191,39 +226,45 @@ Expected<ImageFile> readImage(const std::filesystem::path& path)
     const bool is16Bit = !isHdr && stbi_is_16_bit_from_memory(bytes.data(), length) != 0;
     const std::int64_t bytesPerPixel = isHdr ? 16 : is16Bit ? 8 : 4;
     if (static_cast<std::uint64_t>(size.width * size.height * bytesPerPixel) > kMaxDecodedBytes) {
-        return fail(name + ": " + toString(size) + " takes more than 1 GiB of memory; scale it down");
+        return fail(path + ": " + toString(size) + " takes more than 1 GiB of memory; scale it down");
     }
 
     // An HDR file cannot hold NaN or infinity: its largest number is 255 * 2^119, and that fits a float.
-    if (isHdr) return decode<float>(name, bytes, size, stbi_loadf_from_callbacks);
-    if (is16Bit) return decode<std::uint16_t>(name, bytes, size, stbi_load_16_from_callbacks);
-    return decode<std::uint8_t>(name, bytes, size, stbi_load_from_callbacks);
+    if (isHdr) return decode<float>(path, bytes, size, stbi_loadf_from_callbacks);
+    if (is16Bit) return decode<std::uint16_t>(path, bytes, size, stbi_load_16_from_callbacks);
+    Expected<ImageFile> image = decode<std::uint8_t>(path, bytes, size, stbi_load_from_callbacks);
+    if (image && tgaRunsLeftwards(bytes)) image = mirrored(std::get<Image8>(std::move(*image)));
+    return image;
 }
 
-Expected<void> writePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgba)
+Expected<void> writePng(const std::string& path, int width, int height, std::span<const std::uint8_t> rgba)
 {
     if (const Expected<void> checked = checkWrite(path, width, height, rgba.size(), 4); !checked) return checked;
     if (rgba.size() > kMaxWrittenPngBytes) {
-        return fail(path.string() + ": " + toString({width, height}) + " is too large for a PNG; scale it down");
+        return fail(path + ": " + toString({width, height}) + " is too large for a PNG; scale it down");
     }
     Bytes png;
     const auto take = [](void* context, void* data, int size) {
         const auto* begin = static_cast<const std::uint8_t*>(data);
+        if (!fitsInMemory(static_cast<std::uint64_t>(size))) return;
         static_cast<Bytes*>(context)->assign(begin, begin + size);  // stb hands over the whole file in one call
     };
-    if (!stbi_write_png_to_func(take, &png, width, height, 4, rgba.data(), width * 4)) {
-        return fail(path.string() + ": not enough memory to compress the picture; scale it down");
+    if (!stbi_write_png_to_func(take, &png, width, height, 4, rgba.data(), width * 4) || png.empty()) {
+        return fail(path + ": not enough memory to compress the picture; scale it down");
     }
     return writeFileAtomically(path, png);
 }
 
-Expected<void> writePfm(const std::filesystem::path& path, int width, int height, std::span<const float> rgb)
+Expected<void> writePfm(const std::string& path, int width, int height, std::span<const float> rgb)
 {
     if (const Expected<void> checked = checkWrite(path, width, height, rgb.size(), 3); !checked) return checked;
 
     // PFM: "PF" is RGB, a negative scale says little-endian, and the rows go from the bottom to the top.
     const std::string header = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
     const std::size_t floatsPerRow = static_cast<std::size_t>(width) * 3;
+    if (!fitsInMemory(header.size() + rgb.size() * 4)) {
+        return fail(path + ": not enough memory for the file; scale it down");
+    }
     Bytes bytes(header.begin(), header.end());
     bytes.reserve(bytes.size() + rgb.size() * 4);
     for (std::size_t row = static_cast<std::size_t>(height); row-- > 0;) {

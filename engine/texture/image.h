@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -33,17 +33,19 @@ inline constexpr std::uint64_t kMaxDecodedBytes = std::uint64_t{1} << 30;     //
 inline constexpr std::uint64_t kMaxWrittenPngBytes = std::uint64_t{1} << 29;  // before compression
 
 // Reads an image file of any of the formats above. Missing channels are filled as stb_image does: grey becomes
-// R = G = B, missing alpha becomes opaque. An error when the file cannot be read, is no image, is truncated or damaged,
-// or is larger than kMaxImageSide or kMaxDecodedBytes; sizes are checked before anything is allocated for the pixels.
-Expected<ImageFile> readImage(const std::filesystem::path& path);
+// R = G = B, missing alpha becomes opaque; a colour that a palette does not have is black. An error when the file
+// cannot be read, is no image, is of a kind that is not supported (unsupported.h), is truncated or damaged, or is
+// larger than kMaxImageSide, kMaxDecodedBytes or the memory that is left; sizes are checked before anything is
+// allocated for the pixels.
+Expected<ImageFile> readImage(const std::string& path);
 
 // Writes 8-bit RGBA, row 0 on top, as PNG, through writeFileAtomically (file.h). The same pixels give the same bytes.
 // An error when a side is not in 1..kMaxImageSide, the span is not width * height * 4 long or longer than
 // kMaxWrittenPngBytes, or the file cannot be written.
-Expected<void> writePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgba);
+Expected<void> writePng(const std::string& path, int width, int height, std::span<const std::uint8_t> rgba);
 
 // Writes RGB floats, row 0 on top, as little-endian PFM, bit for bit (NaN and infinity too), through
 // writeFileAtomically. An error as in writePng, with three channels.
-Expected<void> writePfm(const std::filesystem::path& path, int width, int height, std::span<const float> rgb);
+Expected<void> writePfm(const std::string& path, int width, int height, std::span<const float> rgb);
 
 }  // namespace relief

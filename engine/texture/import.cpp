@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "path.h"
 #include "texture/dxt5.h"
 #include "texture/mip_fade.h"
 #include "texture/pixels.h"
@@ -203,9 +204,10 @@ struct FileKey
 
 std::optional<FileKey> keyOf(const std::string& path)
 {
+    const std::filesystem::path file = pathOf(path);
     std::error_code noPath, noSize, noTime;
-    FileKey key{std::filesystem::absolute(path, noPath).string(), std::filesystem::file_size(path, noSize),
-                std::filesystem::last_write_time(path, noTime)};
+    FileKey key{utf8Of(std::filesystem::absolute(file, noPath)), std::filesystem::file_size(file, noSize),
+                std::filesystem::last_write_time(file, noTime)};
     if (noPath || noSize || noTime) return {};
     return key;
 }

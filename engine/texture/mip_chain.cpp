@@ -8,6 +8,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "lanes/environment.h"
+
 namespace relief {
 namespace {
 
@@ -124,6 +126,12 @@ int mipLevelCount(int width, int height)
     return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(width, height))));
 }
 
+std::uint64_t levelBytes(TexelFormat format, int width, int height)
+{
+    const auto rowBytes = static_cast<std::uint64_t>(paddedRowTexels(format, width) * bytesPerTexel(format));
+    return rowBytes * static_cast<std::uint64_t>(height + 2);
+}
+
 MipLevel::MipLevel(TexelFormat format, int width, int height)
     : columns(width),
       rows(height),
@@ -131,7 +139,7 @@ MipLevel::MipLevel(TexelFormat format, int width, int height)
       texelBytes(static_cast<std::size_t>(bytesPerTexel(format))),
       strideInBytes(static_cast<std::size_t>(stride) * texelBytes)
 {
-    lines.resize(strideInBytes * static_cast<std::size_t>(height + 2) / kCacheLine);
+    lines.resize(static_cast<std::size_t>(levelBytes(format, width, height) / kCacheLine));
 }
 
 void MipLevel::fillFrame()
@@ -154,6 +162,7 @@ void MipLevel::fillFrame()
 
 MipLevel coarserLevel(TexelFormat format, const MipLevel& fine)
 {
+    const DefaultFloatingPoint environment;
     MipLevel coarse(format, nextSide(fine.width()), nextSide(fine.height()));
     switch (format) {
         case TexelFormat::rgba8:

@@ -32,6 +32,9 @@ inline constexpr int kMaxMipLevels = 15;       // 16384 down to 1
 // floor(log2(longer side)) + 1: a 257x511 texture has 9 levels. Sides are in 1..kMaxTextureSide.
 int mipLevelCount(int width, int height);
 
+// The bytes that a level takes.
+std::uint64_t levelBytes(TexelFormat format, int width, int height);
+
 // The side of the next level: half of it, rounded down, and at least 1.
 constexpr int nextSide(int side)
 {

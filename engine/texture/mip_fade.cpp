@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "lanes/environment.h"
 #include "texture/pixels.h"
 
 namespace relief {
@@ -37,6 +38,7 @@ Fade fadeOfLevel(int level, int first, int last)
 
 void fadeToGrey(TexelFormat format, ColorSpace meaning, MipLevel& level, Fade fade)
 {
+    const DefaultFloatingPoint environment;
     if (fade.step == 0) return;
     const auto mix8 = [fade](std::uint8_t code) { return static_cast<std::uint8_t>(mixCodes(code, kGreyCode, fade)); };
     const auto mix16 = [fade](std::uint16_t code) {

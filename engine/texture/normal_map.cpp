@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <variant>
 
+#include "lanes/environment.h"
+
 namespace relief {
 namespace {
 
@@ -122,6 +124,7 @@ std::uint8_t toCode(float n)
 
 HeightField heightsOf(const ImageFile& picture)
 {
+    const DefaultFloatingPoint environment;
     return std::visit(
         [](const auto& image) {
             HeightField field{image.width, image.height, {}};
@@ -152,6 +155,7 @@ bool isGreyscale(const ImageFile& picture)
 
 MipLevel normalsFromHeights(const HeightField& heights, float bumpiness, NormalFilter filter)
 {
+    const DefaultFloatingPoint environment;
     const double scale = static_cast<double>(bumpiness) * heights.width;  // texels per unit of height
     const Neighbours neighbours(heights);
     return unitLevel(heights.width, heights.height, [&](int x, int y) {
@@ -162,6 +166,7 @@ MipLevel normalsFromHeights(const HeightField& heights, float bumpiness, NormalF
 
 MipLevel normalsFromColors(const ImageFile& picture)
 {
+    const DefaultFloatingPoint environment;
     return std::visit(
         [](const auto& image) {
             return unitLevel(image.width, image.height, [&image](int x, int y) {
@@ -175,6 +180,7 @@ MipLevel normalsFromColors(const ImageFile& picture)
 
 MipLevel normalizedNormals(const MipLevel& vectors)
 {
+    const DefaultFloatingPoint environment;
     return unitLevel(vectors.width(), vectors.height(), [&vectors](int x, int y) {
         const float* v = vectors.texel<float>(x, y);
         return Vector{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
@@ -183,6 +189,7 @@ MipLevel normalizedNormals(const MipLevel& vectors)
 
 void fadeToFlat(MipLevel& normals, double amount)
 {
+    const DefaultFloatingPoint environment;
     if (!(amount > 0.0)) return;
     const double rest = std::max(1.0 - amount, 0.0);
     normals = unitLevel(normals.width(), normals.height(), [&](int x, int y) {
@@ -194,6 +201,7 @@ void fadeToFlat(MipLevel& normals, double amount)
 
 MipLevel encodeNormals(const MipLevel& normals, NormalChannels channels)
 {
+    const DefaultFloatingPoint environment;
     MipLevel codes(TexelFormat::rgba8, normals.width(), normals.height());
     for (int y = 0; y < normals.height(); ++y) {
         for (int x = 0; x < normals.width(); ++x) {

@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "lanes/environment.h"
+
 namespace relief {
 namespace {
 
@@ -109,6 +111,7 @@ std::uint16_t decodeSrgb16(std::uint16_t code)
 std::uint16_t encodeSrgb16(std::uint16_t linear)
 {
     static const std::vector<std::uint16_t> table = [] {
+        const DefaultFloatingPoint environment;
         std::vector<std::uint16_t> encoded(65536);
         for (std::size_t i = 0; i < encoded.size(); ++i) {
             const float code = linearToSrgb(Float(static_cast<float>(i) / 65535.0f))[0];

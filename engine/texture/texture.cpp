@@ -3,6 +3,9 @@
 
 #include <string>
 
+#include "lanes/environment.h"
+#include "lanes/settled.h"
+#include "memory.h"
 #include "texture/pixels.h"
 #include "texture/shading_scope.h"
 
@@ -28,34 +31,47 @@ glm::vec4 readTexel(TexelFormat format, const MipLevel& level, int x, int y)
     return r;
 }
 
+// A texture with its levels takes a third more than the finest one.
+std::string problemWith(TexelFormat format, int width, int height, std::size_t numbers)
+{
+    std::string problem = problemWithPixels(width, height, numbers);
+    if (!problem.empty() || fitsInMemory(levelBytes(format, width, height) / 3 * 4)) return problem;
+    return "a texture of " + std::to_string(width) + "x" + std::to_string(height) +
+           " texels does not fit into memory; make it smaller";
+}
+
 }  // namespace
 
 Expected<Texture> Texture::fromRgba8(int width, int height, std::span<const std::uint8_t> rgba, ColorSpace meaning)
 {
-    if (std::string problem = problemWithPixels(width, height, rgba.size()); !problem.empty())
-        return fail(std::move(problem));
+    const DefaultFloatingPoint environment;
     const TexelFormat format = meaning == ColorSpace::linear ? TexelFormat::rgba8 : TexelFormat::rgba16;
+    if (std::string problem = problemWith(format, width, height, rgba.size()); !problem.empty())
+        return fail(std::move(problem));
     return Texture(format, levelFromRgba8(width, height, rgba, meaning));
 }
 
 Expected<Texture> Texture::fromRgba16(int width, int height, std::span<const std::uint16_t> rgba, ColorSpace meaning)
 {
-    if (std::string problem = problemWithPixels(width, height, rgba.size()); !problem.empty())
+    const DefaultFloatingPoint environment;
+    if (std::string problem = problemWith(TexelFormat::rgba16, width, height, rgba.size()); !problem.empty())
         return fail(std::move(problem));
     return Texture(TexelFormat::rgba16, levelFromRgba16(width, height, rgba, meaning));
 }
 
 Expected<Texture> Texture::fromRgbaFloat(int width, int height, std::span<const float> rgba)
 {
-    if (std::string problem = problemWithPixels(width, height, rgba.size()); !problem.empty())
+    const DefaultFloatingPoint environment;
+    if (std::string problem = problemWith(TexelFormat::rgba32Float, width, height, rgba.size()); !problem.empty())
         return fail(std::move(problem));
     return Texture(TexelFormat::rgba32Float, levelFromRgbaFloat(width, height, rgba));
 }
 
 Expected<Texture> Texture::fromLevels(TexelFormat format, int width, int height, MakeLevel make)
 {
+    const DefaultFloatingPoint environment;
     const auto numbers = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
-    if (std::string problem = problemWithPixels(width, height, numbers); !problem.empty())
+    if (std::string problem = problemWith(format, width, height, numbers); !problem.empty())
         return fail(std::move(problem));
     Texture texture(format, width, height, std::move(make));
     if (texture.isConstant()) texture.firstTexel = texture.texel(0, 0);
@@ -112,12 +128,14 @@ Texture::Texture(TexelFormat format, MipLevel finest)
 
 glm::vec4 Texture::texel(int x, int y) const
 {
-    return readTexel(texelFormat, level(0), x, y);
+    const DefaultFloatingPoint environment;
+    return settled(readTexel(texelFormat, level(0), x, y));
 }
 
 const MipLevel& Texture::buildLevel(int k) const
 {
     const ShadingScope scope;  // a block may ask for the level while it is shaded
+    const DefaultFloatingPoint environment;
     const std::lock_guard lock(chain->building);
     for (int i = 0; i <= k; ++i) {
         const auto at = static_cast<std::size_t>(i);

@@ -29,7 +29,7 @@ class Texture
 public:
     // From RGBA pixels, row 0 on top: width * height * 4 numbers. `srgb` decodes red, green and blue (alpha is always
     // linear) and stores 16 bits per channel; `linear` stores the numbers as they are. An error when a side is not in
-    // 1..kMaxTextureSide or the span has another length.
+    // 1..kMaxTextureSide, the span has another length, or the texture and its levels do not fit into memory.
     static Expected<Texture> fromRgba8(int width, int height, std::span<const std::uint8_t> rgba, ColorSpace meaning);
     static Expected<Texture> fromRgba16(int width, int height, std::span<const std::uint16_t> rgba, ColorSpace meaning);
 
@@ -42,7 +42,7 @@ public:
     // in order from 0, by one thread at a time; it gets the level's number and the level before (null for level 0), and
     // returns one of `format`, frame filled, with sides width, height or nextSide() of those before. It is dropped with
     // all it holds after the last level. A texture of one texel is made at once. An error when a side is not in
-    // 1..kMaxTextureSide.
+    // 1..kMaxTextureSide, or the texture and its levels do not fit into memory.
     using MakeLevel = std::function<MipLevel(int level, const MipLevel* finer)>;
     static Expected<Texture> fromLevels(TexelFormat format, int width, int height, MakeLevel make);
 

@@ -1,5 +1,5 @@
-// How long a TGA file has to be for the size in its header: stb_image decodes what is missing as zeros, and a header of
-// 18 bytes can ask for 16384x16384 of them.
+// What stb_image does not look at in the header of a TGA file: how long the file has to be for the size that it names
+// (what is missing is decoded as zeros, and 18 bytes can ask for 16384x16384 of them), and on which side rows begin.
 #pragma once
 
 #include <cstdint>
@@ -10,5 +10,8 @@ namespace relief {
 // The fewest bytes that hold the header and the pixels of this TGA file: 128 pixels to a packet where they are
 // run-length encoded. 0 for files of other formats.
 std::uint64_t fewestTgaBytes(std::span<const std::uint8_t> file);
+
+// Whether the rows of this TGA file run from right to left. False for files of other formats.
+bool tgaRunsLeftwards(std::span<const std::uint8_t> file);
 
 }  // namespace relief

@@ -1,0 +1,19 @@
+#include "memory.h"
+
+#include <cstddef>
+#include <limits>
+#include <new>
+
+namespace relief {
+
+bool fitsInMemory(std::uint64_t bytes)
+{
+    if (bytes > static_cast<std::uint64_t>(std::numeric_limits<std::ptrdiff_t>::max())) return false;
+    void* block = ::operator new(static_cast<std::size_t>(bytes), std::nothrow);
+    asm volatile("" : "+m"(block));  // or compilers would leave out a block that nobody writes to
+    const bool fits = block != nullptr;
+    ::operator delete(block);
+    return fits;
+}
+
+}  // namespace relief
