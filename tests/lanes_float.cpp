@@ -197,12 +197,6 @@ TEST_CASE("Float: clamp, S-707 with NaN to the lower limit")
     CHECK(clamp(Float(kNan), -2.0f, 3.5f)[kLanes - 1] == -2.0f);
 }
 
-TEST_CASE("Float: numeric_limits are float's")
-{
-    static_assert(std::numeric_limits<Float>::is_iec559);
-    CHECK(std::numeric_limits<Float>::epsilon() == std::numeric_limits<float>::epsilon());
-}
-
 // --- Float to Int and back ---
 
 TEST_CASE("roundToInt: to the nearest, as std::nearbyint")

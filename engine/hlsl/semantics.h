@@ -109,8 +109,8 @@ using noperspective = typename semantic::Affine<S>::Type;
 
 template <class T>
 inline constexpr int kComponents = 1;
-template <int size>
-inline constexpr int kComponents<FloatN<size>> = size;
+template <class T, int size>
+inline constexpr int kComponents<LaneVector<T, size>> = size;
 
 template <class T>
 concept IsSemantic = requires
@@ -127,8 +127,12 @@ inline Float& component(Float& v, int)
 {
     return v;
 }
-template <int size>
-Float& component(FloatN<size>& v, int i)
+inline Int& component(Int& v, int)
+{
+    return v;
+}
+template <class T, int size>
+T& component(LaneVector<T, size>& v, int i)
 {
     return v[i];
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <concepts>
-#include <limits>
 #include <type_traits>
 
 #include "lanes/int.h"
@@ -135,9 +134,3 @@ Float permuteQuad(Float a)
 }
 
 }  // namespace relief
-
-// What GLM's vectors ask of their element type.
-template <>
-class std::numeric_limits<relief::Float> : public std::numeric_limits<float>
-{
-};

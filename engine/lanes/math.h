@@ -3,6 +3,8 @@
 // D3D 11.3 (22.10) asks for a relative 2^-21 = 4.8e-7 of exp2 and log2 and an absolute 8e-4 of sin and cos.
 #pragma once
 
+#include <limits>
+
 #include "lanes/float.h"
 
 namespace relief {
