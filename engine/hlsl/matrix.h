@@ -47,6 +47,13 @@ struct LaneMatrix
         if constexpr (n == 4) return {mul(a, b[0]), mul(a, b[1]), mul(a, b[2]), mul(a, b[3])};
     }
 
+    friend LaneMatrix mul(const LaneMatrix& m, Float s)
+    {
+        if constexpr (n == 3) return {m[0] * s, m[1] * s, m[2] * s};
+        if constexpr (n == 4) return {m[0] * s, m[1] * s, m[2] * s, m[3] * s};
+    }
+    friend LaneMatrix mul(Float s, const LaneMatrix& m) { return mul(m, s); }
+
     friend V operator*(const LaneMatrix& m, const V& v) { return mul(m, v); }
     friend V operator*(const V& v, const LaneMatrix& m) { return mul(v, m); }
     friend LaneMatrix operator*(const LaneMatrix& a, const LaneMatrix& b) { return mul(a, b); }
@@ -65,6 +72,22 @@ inline LaneMatrix<4> transpose(const LaneMatrix<4>& m)
             {m[0].y, m[1].y, m[2].y, m[3].y},
             {m[0].z, m[1].z, m[2].z, m[3].z},
             {m[0].w, m[1].w, m[2].w, m[3].w}};
+}
+
+// By the cofactors of the first column, those of four rows by pairs of rows.
+inline Float determinant(const LaneMatrix<3>& m)
+{
+    return m[0].x * (m[1].y * m[2].z - m[2].y * m[1].z) + m[0].y * (m[1].z * m[2].x - m[2].z * m[1].x) +
+           m[0].z * (m[1].x * m[2].y - m[2].x * m[1].y);
+}
+inline Float determinant(const LaneMatrix<4>& m)
+{
+    const auto minor = [&m](int a, int b, int row, int other) {
+        return m[a][row] * m[b][other] - m[b][row] * m[a][other];
+    };
+    return minor(0, 1, 0, 1) * minor(2, 3, 2, 3) - minor(0, 1, 0, 2) * minor(2, 3, 1, 3) +
+           minor(0, 1, 0, 3) * minor(2, 3, 1, 2) + minor(0, 1, 1, 2) * minor(2, 3, 0, 3) -
+           minor(0, 1, 1, 3) * minor(2, 3, 0, 2) + minor(0, 1, 2, 3) * minor(2, 3, 0, 1);
 }
 
 }  // namespace relief

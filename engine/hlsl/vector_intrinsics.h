@@ -43,56 +43,97 @@ To castTo(From v)
 template <class T, int n>
 struct VectorIntrinsics;
 
+// A function of one, two or three values, applied to each component.
+#define RELIEF_OF_EACH(R, name)                            \
+    friend R name(const V& v)                              \
+    {                                                      \
+        return each<R>([](auto x) { return name(x); }, v); \
+    }
+#define RELIEF_OF_EACH_TWO(name)                                         \
+    friend V name(const V& a, const V& b)                                \
+    {                                                                    \
+        return each<V>([](auto x, auto y) { return name(x, y); }, a, b); \
+    }
+#define RELIEF_OF_EACH_THREE(name)                                                     \
+    friend V name(const V& a, const V& b, const V& c)                                  \
+    {                                                                                  \
+        return each<V>([](auto x, auto y, auto z) { return name(x, y, z); }, a, b, c); \
+    }
+
 template <int n>
 struct VectorIntrinsics<Float, n>
 {
     using V = LaneVector<Float, n>;
+    using I = LaneVector<Int, n>;
+    using B = LaneVector<Mask, n>;
 
-    friend V saturate(const V& v)
-    {
-        return each<V>([](Float x) { return saturate(x); }, v);
-    }
-    friend V abs(const V& v)
-    {
-        return each<V>([](Float x) { return abs(x); }, v);
-    }
-    friend V floor(const V& v)
-    {
-        return each<V>([](Float x) { return floor(x); }, v);
-    }
-    friend V frac(const V& v)
-    {
-        return each<V>([](Float x) { return frac(x); }, v);
-    }
-    friend V sqrt(const V& v)
-    {
-        return each<V>([](Float x) { return sqrt(x); }, v);
-    }
-    friend V sign(const V& v)
-    {
-        return each<V>([](Float x) { return sign(x); }, v);
-    }
-    friend V pow(const V& a, const V& b)
-    {
-        return each<V>([](Float x, Float y) { return pow(x, y); }, a, b);
-    }
-    friend V min(const V& a, const V& b)
-    {
-        return each<V>([](Float x, Float y) { return min(x, y); }, a, b);
-    }
-    friend V max(const V& a, const V& b)
-    {
-        return each<V>([](Float x, Float y) { return max(x, y); }, a, b);
-    }
-    friend V clamp(const V& v, const V& low, const V& high)
-    {
-        return each<V>([](Float x, Float l, Float h) { return clamp(x, l, h); }, v, low, high);
-    }
+    RELIEF_OF_EACH(V, abs)
+    RELIEF_OF_EACH(V, sign)
+    RELIEF_OF_EACH(V, saturate)
+    RELIEF_OF_EACH(V, floor)
+    RELIEF_OF_EACH(V, ceil)
+    RELIEF_OF_EACH(V, round)
+    RELIEF_OF_EACH(V, trunc)
+    RELIEF_OF_EACH(V, frac)
+    RELIEF_OF_EACH(V, sqrt)
+    RELIEF_OF_EACH(V, rsqrt)
+    RELIEF_OF_EACH(V, rcp)
+    RELIEF_OF_EACH(V, exp)
+    RELIEF_OF_EACH(V, exp2)
+    RELIEF_OF_EACH(V, log)
+    RELIEF_OF_EACH(V, log2)
+    RELIEF_OF_EACH(V, log10)
+    RELIEF_OF_EACH(V, sin)
+    RELIEF_OF_EACH(V, cos)
+    RELIEF_OF_EACH(V, tan)
+    RELIEF_OF_EACH(V, asin)
+    RELIEF_OF_EACH(V, acos)
+    RELIEF_OF_EACH(V, atan)
+    RELIEF_OF_EACH(V, sinh)
+    RELIEF_OF_EACH(V, cosh)
+    RELIEF_OF_EACH(V, tanh)
+    RELIEF_OF_EACH(V, degrees)
+    RELIEF_OF_EACH(V, radians)
+    RELIEF_OF_EACH(B, isnan)
+    RELIEF_OF_EACH(B, isinf)
+    RELIEF_OF_EACH(B, isfinite)
+    RELIEF_OF_EACH(I, asint)
+
+    RELIEF_OF_EACH_TWO(min)
+    RELIEF_OF_EACH_TWO(max)
+    RELIEF_OF_EACH_TWO(step)
+    RELIEF_OF_EACH_TWO(pow)
+    RELIEF_OF_EACH_TWO(fmod)
+    RELIEF_OF_EACH_TWO(atan2)
+    RELIEF_OF_EACH_TWO(ldexp)
+
+    RELIEF_OF_EACH_THREE(clamp)
+    RELIEF_OF_EACH_THREE(smoothstep)
     friend V lerp(const V& a, const V& b, const V& t) { return a + (b - a) * t; }
+    friend V mad(const V& a, const V& b, const V& c) { return a * b + c; }
+    friend void sincos(const V& v, V& sine, V& cosine)
+    {
+        sine = sin(v);
+        cosine = cos(v);
+    }
+    friend V modf(const V& v, V& whole)
+    {
+        whole = trunc(v);
+        return v - whole;
+    }
+
     friend V select(Mask m, const V& a, const V& b)
     {
         return each<V>([m](Float x, Float y) { return select(m, x, y); }, a, b);
     }
+    friend V select(const B& m, const V& a, const V& b)
+    {
+        return each<V>([](Mask k, Float x, Float y) { return select(k, x, y); }, m, a, b);
+    }
+
+    // Per pixel: whether any component is not 0, or none is.
+    friend Mask any(const V& v) { return any(v != V(0.0f)); }
+    friend Mask all(const V& v) { return all(v != V(0.0f)); }
 
     // --- of all components together ---
 
@@ -119,6 +160,27 @@ struct VectorIntrinsics<Float, n>
 
     // The direction of light that comes from `incident` and is mirrored at a surface with the unit normal `normal`.
     friend V reflect(const V& incident, const V& normal) { return incident - normal * (2.0f * dot(incident, normal)); }
+
+    // The same, bent where it enters: `eta` is the ratio of the indices of refraction, outside to inside. The zero
+    // vector where all light is reflected.
+    friend V refract(const V& incident, const V& normal, Float eta)
+    {
+        const Float cosine = dot(incident, normal);
+        const Float k = 1.0f - eta * eta * (1.0f - cosine * cosine);
+        const V bent = incident * eta - normal * (eta * cosine + sqrt(max(k, Float(0.0f))));
+        return select(k >= 0.0f, bent, V(0.0f));
+    }
+
+    // `normal`, turned to the side that `incident` comes from, as `geometric` tells it.
+    friend V faceforward(const V& normal, const V& incident, const V& geometric)
+    {
+        return select(dot(incident, geometric) < 0.0f, normal, -normal);
+    }
+
+    // HLSL's mul of vectors: two make their dot product, a number scales.
+    friend Float mul(const V& a, const V& b) { return dot(a, b); }
+    friend V mul(const V& v, Float s) { return v * s; }
+    friend V mul(Float s, const V& v) { return s * v; }
 };
 
 // normalize() where a square leaves the range of floats. A function of its own, because it hardly ever runs.
@@ -139,11 +201,53 @@ template <int n>
 template <int n>
 struct VectorIntrinsics<Int, n>
 {
+    using V = LaneVector<Int, n>;
+    using B = LaneVector<Mask, n>;
+
+    RELIEF_OF_EACH(V, abs)
+    RELIEF_OF_EACH(V, sign)
+    friend LaneVector<Float, n> asfloat(const V& v)
+    {
+        return each<LaneVector<Float, n>>([](Int x) { return asfloat(x); }, v);
+    }
+
+    RELIEF_OF_EACH_TWO(min)
+    RELIEF_OF_EACH_TWO(max)
+    RELIEF_OF_EACH_THREE(clamp)
+    friend V mad(const V& a, const V& b, const V& c) { return a * b + c; }
+
+    friend V select(Mask m, const V& a, const V& b)
+    {
+        return each<V>([m](Int x, Int y) { return select(m, x, y); }, a, b);
+    }
+    friend V select(const B& m, const V& a, const V& b)
+    {
+        return each<V>([](Mask k, Int x, Int y) { return select(k, x, y); }, m, a, b);
+    }
 };
 
 template <int n>
 struct VectorIntrinsics<Mask, n>
 {
+    using V = LaneVector<Mask, n>;
+
+    // Per pixel, of its components. any(Mask) asks all pixels of the block.
+    friend Mask any(const V& v)
+    {
+        if constexpr (n == 2) return v.x | v.y;
+        if constexpr (n == 3) return v.x | v.y | v.z;
+        if constexpr (n == 4) return v.x | v.y | v.z | v.w;
+    }
+    friend Mask all(const V& v)
+    {
+        if constexpr (n == 2) return v.x & v.y;
+        if constexpr (n == 3) return v.x & v.y & v.z;
+        if constexpr (n == 4) return v.x & v.y & v.z & v.w;
+    }
 };
+
+#undef RELIEF_OF_EACH
+#undef RELIEF_OF_EACH_TWO
+#undef RELIEF_OF_EACH_THREE
 
 }  // namespace relief::detail
