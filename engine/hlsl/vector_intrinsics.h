@@ -244,6 +244,19 @@ struct VectorIntrinsics<Mask, n>
         if constexpr (n == 3) return v.x & v.y & v.z;
         if constexpr (n == 4) return v.x & v.y & v.z & v.w;
     }
+
+    // Between two values that are no vectors.
+    template <class A, class B>
+    requires std::is_arithmetic_v<A> && std::is_arithmetic_v<B>
+    friend auto select(const V& m, A a, B b)
+    {
+        using Lanes = decltype(select(Mask(), a, b));
+        return each<LaneVector<Lanes, n>>([a, b](Mask k) { return select(k, Lanes(a), Lanes(b)); }, m);
+    }
+    friend LaneVector<Float, n> select(const V& m, Float a, Float b)
+    {
+        return each<LaneVector<Float, n>>([a, b](Mask k) { return select(k, a, b); }, m);
+    }
 };
 
 #undef RELIEF_OF_EACH
