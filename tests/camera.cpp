@@ -1,13 +1,94 @@
-// Cameras that no picture needs: whatever matrix comes out, the frame stays finite (stability case S-114).
-#include "common/camera.h"
+// The camera's matrices: where known points go, by algebra. And cameras that no picture needs: whatever matrix comes
+// out, the frame stays finite (stability case S-114).
+#include "shading/camera.h"
 
+#include <cmath>
 #include <limits>
 
+#include <glm/geometric.hpp>
+
+#include "common/camera.h"
 #include "common/render.h"
 #include "pipeline_fixture.h"
 
 using namespace fixture;
 using namespace relief::samples;
+
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+// How far a matrix takes a point from where it should go.
+float offBy(const glm::mat4& m, const glm::vec3& point, const glm::vec3& expected)
+{
+    const glm::vec4 p = m * glm::vec4(point, 1.0f);
+    return glm::length(glm::vec3(p) / p.w - expected);
+}
+
+}  // namespace
+
+TEST_CASE("camera: lookAt puts the camera at the origin and its target on +z; right is +x, up is +y")
+{
+    const glm::vec3 position(3, 2, -5), target(3, 2, 7);
+    CHECK(offBy(lookAt(position, target), position, {0, 0, 0}) == 0.0f);
+    CHECK(offBy(lookAt(position, target), target, {0, 0, 12}) == 0.0f);
+    CHECK(offBy(lookAt(position, target), {4, 2, -5}, {1, 0, 0}) == 0.0f);
+    CHECK(offBy(lookAt(position, target), {3, 3, -5}, {0, 1, 0}) == 0.0f);
+    const glm::mat4 oblique = lookAt({1, 2, 3}, {-4, 0, 9});
+    CHECK(offBy(oblique, {-4, 0, 9}, {0, 0, std::sqrt(65.0f)}) < 2e-6f);
+    CHECK((oblique * glm::vec4(0, 1, 0, 0)).y > 0.0f);
+    CHECK(std::abs((oblique * glm::vec4(0, 1, 0, 0)).x) < 1e-7f);
+    CHECK(glm::determinant(oblique) == doctest::Approx(1.0f));  // no mirror
+}
+
+TEST_CASE("camera: lookAt straight up or down still has a right and an up")
+{
+    for (const float y : {-5.0f, 5.0f}) {
+        CHECK(offBy(lookAt({0, 0, 0}, {0, y, 0}), {0, y, 0}, {0, 0, 5}) < 1e-6f);
+        CHECK(glm::determinant(lookAt({0, 0, 0}, {0, y, 0})) == doctest::Approx(1.0f));
+        CHECK(glm::determinant(lookAt({0, 0, 0}, {0, 0, y}, {0, 0, 1})) == doctest::Approx(1.0f));
+    }
+    CHECK(offBy(lookAt({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), {1, 0, 0}, {0, 1, 0}) < 1e-7f);
+}
+
+TEST_CASE("camera: perspective of 90 degrees has the frustum's corners at -1 and 1, depth from 0 to 1")
+{
+    const glm::mat4 m = perspective(90, 2, 0.5f, 8);
+    CHECK(offBy(m, {0, 0, 0.5f}, {0, 0, 0}) < 1e-6f);
+    CHECK(offBy(m, {0, 0, 8}, {0, 0, 1}) < 1e-6f);
+    CHECK(offBy(m, {6, 3, 3}, {1, 1, m[2][2] + m[3][2] / 3}) < 1e-6f);
+    CHECK(offBy(m, {-16, -8, 8}, {-1, -1, 1}) < 1e-6f);
+    CHECK((m * glm::vec4(1, 2, 3, 1)).w == 3.0f);
+}
+
+TEST_CASE("camera: the far plane may be at infinity, and depth reversed")
+{
+    CHECK(offBy(perspective(90, 1, 0.5f, kFar), {0, 0, 0.5f}, {0, 0, 0}) == 0.0f);
+    CHECK(offBy(perspective(90, 1, 0.5f, kFar), {0, 0, 1e30f}, {0, 0, 1}) == 0.0f);
+    CHECK(offBy(perspectiveReversed(90, 1, 0.5f, kFar), {0, 0, 0.5f}, {0, 0, 1}) == 0.0f);
+    CHECK(offBy(perspectiveReversed(90, 1, 0.5f, kFar), {0, 0, 1e10f}, {0, 0, 5e-11f}) == 0.0f);
+    CHECK(offBy(perspectiveReversed(90, 1, 0.5f, 8), {0, 0, 0.5f}, {0, 0, 1}) < 1e-6f);
+    CHECK(offBy(perspectiveReversed(90, 1, 0.5f, 8), {0, 0, 8}, {0, 0, 0}) < 1e-6f);
+}
+
+TEST_CASE("camera: orthographic has a box's corners at -1 and 1")
+{
+    const glm::mat4 m = orthographic(4, 2, 1, 9);
+    CHECK(offBy(m, {2, 1, 1}, {1, 1, 0}) == 0.0f);
+    CHECK(offBy(m, {-2, -1, 9}, {-1, -1, 1}) == 0.0f);
+    CHECK((m * glm::vec4(1, 2, 3, 1)).w == 1.0f);
+}
+
+TEST_CASE("camera: rotations take y to z, z to x and x to y; translations and scalings")
+{
+    const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    CHECK(offBy(rotationX(90), y, z) < 1e-7f);
+    CHECK(offBy(rotationY(90), z, x) < 1e-7f);
+    CHECK(offBy(rotationZ(90), x, y) < 1e-7f);
+    CHECK(offBy(rotationZ(-30), x, {std::sqrt(0.75f), -0.5f, 0}) < 1e-6f);
+    CHECK(offBy(translation({1, 2, 3}), {4, 5, 6}, {5, 7, 9}) == 0.0f);
+    CHECK(offBy(scaling({1, 2, 3}), {4, 5, 6}, {4, 10, 18}) == 0.0f);
+}
 
 TEST_CASE("camera: S-114 near = far, near below 0, 179.9 degrees, an aspect of 1e6: finite pictures")
 {

@@ -165,6 +165,15 @@ TEST_CASE("derivatives: coarse ones of a vector are those of its components")
     CHECK(all(ddy_coarse(v).y == ddy_coarse(b)));
 }
 
+TEST_CASE("derivatives: fwidth is the sum of both changes; the fine forms are the default")
+{
+    const Float f = 3.0f * xs() - 5.0f * ys();
+    CHECK(all(fwidth(f) == 8.0f));
+    CHECK(all(fwidth(float2(f, -f)).y == 8.0f));
+    CHECK(all(ddx_fine(quads()) == ddx(quads())));
+    CHECK(all(ddy_fine(float2(quads(), f)).x == ddy(quads())));
+}
+
 TEST_CASE("derivatives: S-516 coarse and fine ones are equal on a plane, and a choice by name elsewhere")
 {
     const Float plane = 3.0f * xs() - 5.0f * ys() + 100.0f;

@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "hlsl/semantics.h"
 #include "lane_check.h"
 #include "stability.h"
 
@@ -145,6 +146,103 @@ TEST_CASE("select of vectors takes all components of a lane from one side")
     }
 }
 
+TEST_CASE("functions of each component take numbers, single values, plain vectors and fields, in any place")
+{
+    const float3 v(-1.0f, 0.5f, 3.0f);
+    const Float two = 2.0f;
+    TEXCOORD<0, float3> field;
+    field = v;
+    CHECK(is(max(v, 0), 0.0f, 0.5f, 3.0f));
+    CHECK(is(min(1, v), -1.0f, 0.5f, 1.0f));
+    CHECK(is(max(field, glm::vec3(0, 1, 2)), 0.0f, 1.0f, 3.0f));
+    CHECK(is(max(two, field), 2.0f, 2.0f, 3.0f));
+    CHECK(is(clamp(v, 0, float3(1, 1, 2)), 0.0f, 0.5f, 2.0f));
+    CHECK(is(lerp(v, 1, 0.5f), 0.0f, 0.75f, 2.0f));
+    CHECK(is(lerp(0, field, float3(0, 1, 2)), 0.0f, 0.5f, 6.0f));
+    CHECK(is(step(0.5f, v), 0.0f, 1.0f, 1.0f));
+    CHECK(is(step(v, two), 1.0f, 1.0f, 0.0f));
+    CHECK(is(smoothstep(0, 1, v), 0.0f, 0.5f, 1.0f));
+    CHECK(is(smoothstep(float3(0, 0, 2), 4, field), 0.0f, 0.04296875f, 0.5f));
+    CHECK(is(pow(2, field), 0.5f, 1.41421354f, 8.0f));
+    CHECK(is(pow(float3(1, 2, 3), float3(3, 2, 1)), 1.0f, 4.0f, 3.0f));
+    CHECK(is(fmod(v * 2, 1.5f), -0.5f, 1.0f, 0.0f));
+    CHECK(is(mad(v, 2, 1), -1.0f, 2.0f, 7.0f));
+    CHECK(is(saturate(field), 0.0f, 0.5f, 1.0f));
+    CHECK(is(abs(field), 1.0f, 0.5f, 3.0f));
+    CHECK(is(sign(field), -1.0f, 1.0f, 1.0f));
+    CHECK(is(ceil(v), -1.0f, 1.0f, 3.0f));
+    CHECK(is(round(v * 3), -3.0f, 2.0f, 9.0f));
+    CHECK(is(trunc(v * 1.5f), -1.0f, 0.0f, 4.0f));
+    CHECK(is(rcp(float2(2, 4)), 0.5f, 0.25f));
+    CHECK(is(rsqrt(float2(4, 16)), 0.5f, 0.25f));
+    CHECK(is(exp2(float2(3, -1)), 8.0f, 0.5f));
+    CHECK(is(log2(float2(8, 0.5f)), 3.0f, -1.0f));
+    CHECK(is(atan2(float2(0, 1), 1), 0.0f, 0.785398163f));
+    CHECK(is(ldexp(float2(3, 5), 2), 12.0f, 20.0f));
+    CHECK(is(degrees(float2(0, 3.14159265f)), 0.0f, 180.0f));
+    CHECK(is(radians(float2(0, 180)), 0.0f, 3.14159265f));
+    float3 sine, cosine, whole;
+    sincos(v, sine, cosine);
+    for (int k = 0; k < 3; ++k) {
+        CHECK(all(sine[k] == sin(v[k])));
+        CHECK(all(cosine[k] == cos(v[k])));
+        CHECK(all(tan(v)[k] == tan(v[k])));
+        CHECK(all(exp(v)[k] == exp(v[k])));
+        CHECK(all(log(v)[2] == log(v.z)));
+        CHECK(all(tanh(v)[k] == tanh(v[k])));
+        CHECK(all(asin(v * 0.25f)[k] == asin(v[k] * 0.25f)));
+    }
+    CHECK(is(modf(float3(1.25f, -1.25f, 2), whole), 0.25f, -0.25f, 0.0f));
+    CHECK(is(whole, 1.0f, -1.0f, 2.0f));
+}
+
+TEST_CASE("isnan, isinf and isfinite of each component")
+{
+    const float4 v(kNan, -kInfinity, kLargest, 0.0f);
+    CHECK(isnan(v).x.bits() == kAllLanes);
+    CHECK(none(any(isnan(v.yzw()))));
+    CHECK(isinf(v).y.bits() == kAllLanes);
+    CHECK(none(any(isinf(v.xzw()))));
+    CHECK(all(all(isfinite(v.zw()))));
+    CHECK(none(any(isfinite(v.xy()))));
+}
+
+TEST_CASE("fmod: of x's sign, below |y|, and what the division has in common with std::fmod")
+{
+    CHECK(is(fmod(Float(5.5f), Float(2.0f)), 1.5f));
+    CHECK(is(fmod(Float(-5.5f), Float(2.0f)), -1.5f));
+    CHECK(is(fmod(Float(5.5f), Float(-2.0f)), 1.5f));
+    CHECK(is(fmod(Float(1.0f), Float(kInfinity)), 1.0f));
+    CHECK(all(isnan(fmod(Float(1.0f), Float(0.0f)))));
+    CHECK(all(isnan(fmod(Float(kInfinity), Float(2.0f)))));
+    RandomBits random;
+    for (int n = 0; n < 2000; ++n) {
+        const Float x = randomFloat(random) * 1000.0f, y = randomFloat(random);
+        const Float rest = fmod(x, y);
+        REQUIRE(all(abs(rest) < abs(y)));
+        for (int i = 0; i < kLanes; ++i) {
+            const double off = std::abs(double{rest[i]} - std::fmod(double{x[i]}, double{y[i]}));
+            REQUIRE(std::min(off, std::abs(double{y[i]}) - off) <= 0x1p-24 * std::abs(double{x[i]}));
+        }
+    }
+}
+
+TEST_CASE("select: between plain numbers, and by a mask for each component")
+{
+    const Mask odd = Mask::fromBits(0xaaaau);
+    const Float one = select(odd, 1.0f, 0.0f), mixed = select(odd, 1, 0.5);
+    const Int whole = select(odd, 1, 0);
+    for (int i = 0; i < kLanes; ++i) {
+        CHECK(one[i] == (i % 2 == 1 ? 1.0f : 0.0f));
+        CHECK(mixed[i] == (i % 2 == 1 ? 1.0f : 0.5f));
+        CHECK(whole[i] == i % 2);
+    }
+    const float3 v(-1.0f, 0.5f, 3.0f);
+    CHECK(is(select(v < 1, v, 9), -1.0f, 0.5f, 9.0f));
+    CHECK(is(select(v < 1, 0.0f, 1), 0.0f, 0.0f, 1.0f));
+    CHECK(is(select(v < 1, Float(0.5f), 1), 0.5f, 0.5f, 1.0f));
+}
+
 // --- of vectors ---
 
 TEST_CASE("dot of two, three and four components")
@@ -276,6 +374,44 @@ TEST_CASE("reflect: the part along the normal turns around, the rest stays")
     CHECK(is(reflect(float3(1.0f, -2.0f, 3.0f), up), 1.0f, 2.0f, 3.0f));
     CHECK(is(reflect(float3(0.0f, -1.0f, 0.0f), up), 0.0f, 1.0f, 0.0f));
     CHECK(is(reflect(float3(1.0f, 0.0f, 0.0f), up), 1.0f, 0.0f, 0.0f));
+}
+
+TEST_CASE("refract: straight on nothing bends, at 30 degrees Snell's law, and total reflection is zero")
+{
+    const float3 up(0.0f, 1.0f, 0.0f);
+    CHECK(is(refract(float3(0.0f, -1.0f, 0.0f), up, 0.5f), 0.0f, -1.0f, 0.0f));
+    const float3 bent = refract(float3(0.5f, -std::sqrt(0.75f), 0.0f), up, 0.5f);
+    CHECK(all(abs(bent.x - 0.25f) < 1e-7f));
+    CHECK(all(abs(length(bent) - 1.0f) < 2e-7f));
+    CHECK(is(refract(float3(0.8f, -0.6f, 0.0f), up, 1.5f), 0.0f, 0.0f, 0.0f));
+}
+
+TEST_CASE("faceforward: turned against the incident direction")
+{
+    const float3 n(0.0f, 0.0f, -1.0f);
+    CHECK(is(faceforward(n, float3(0, 0, 1), n), 0.0f, 0.0f, -1.0f));
+    CHECK(is(faceforward(n, float3(0, 0, -1), n), 0.0f, 0.0f, 1.0f));
+}
+
+TEST_CASE("lit and dst")
+{
+    CHECK(is(lit(0.5f, 0.5f, 2.0f), 1.0f, 0.5f, 0.25f, 1.0f));
+    CHECK(is(lit(-0.5f, 0.5f, 2.0f), 1.0f, 0.0f, 0.0f, 1.0f));
+    CHECK(is(lit(0.5f, -0.5f, 2.0f), 1.0f, 0.5f, 0.0f, 1.0f));
+    CHECK(is(dst(float4(0, 9, 9, 0), float4(0, 0.5f, 0, 0.25f)), 1.0f, 4.5f, 9.0f, 0.25f));
+}
+
+TEST_CASE("dot, length, distance and reflect take plain vectors, fields and vectors of any size")
+{
+    TEXCOORD<0, float3> field;
+    field = float3(1.0f, 2.0f, 3.0f);
+    CHECK(is(dot(field, glm::vec3(1, 1, 1)), 6.0f));
+    CHECK(is(dot(field, field), 14.0f));
+    CHECK(is(distance(field, glm::vec3(1, 2, 5)), 2.0f));
+    CHECK(is(length(float2(3.0f, 4.0f)), 5.0f));
+    CHECK(is(reflect(float2(1.0f, -2.0f), float2(0.0f, 1.0f)), 1.0f, 2.0f));
+    CHECK(is(mul(field, Float(2.0f)), 2.0f, 4.0f, 6.0f));
+    CHECK(is(mul(field, field), 14.0f));
 }
 
 // --- of matrices ---

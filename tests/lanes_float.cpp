@@ -197,10 +197,19 @@ TEST_CASE("Float: clamp, S-707 with NaN to the lower limit")
     CHECK(clamp(Float(kNan), -2.0f, 3.5f)[kLanes - 1] == -2.0f);
 }
 
-TEST_CASE("Float: numeric_limits are float's")
+TEST_CASE("Float: trunc, round to even, copySign, isinf and isfinite as the standard library's")
 {
-    static_assert(std::numeric_limits<Float>::is_iec559);
-    CHECK(std::numeric_limits<Float>::epsilon() == std::numeric_limits<float>::epsilon());
+    CHECK(difference(
+              manyFloats(), [](Float a) { return trunc(a); }, [](float a) { return std::trunc(a); }) == "");
+    CHECK(difference(
+              manyFloats(), [](Float a) { return round(a); }, [](float a) { return std::nearbyint(a); }) == "");
+    CHECK(difference(
+              manyFloats(), [](Float a) { return isinf(a); }, [](float a) { return std::isinf(a); }) == "");
+    CHECK(difference(
+              manyFloats(), [](Float a) { return isfinite(a); }, [](float a) { return std::isfinite(a); }) == "");
+    CHECK(differenceOfPairs(
+              kFloats, [](Float a, Float b) { return copySign(a, b); },
+              [](float a, float b) { return std::copysign(a, b); }) == "");
 }
 
 // --- Float to Int and back ---

@@ -1,4 +1,4 @@
-// exp2, log2, pow, sin, cos and atan2: the largest error over all mantissas stays below what lanes/math.h promises,
+// exp, log, pow, sin, cos and their like: the largest error over all mantissas stays below what lanes/math.h promises,
 // values join where one piece of the computation gives way to the next, and the bits are the same in every build.
 // RELIEF_SHORT_TESTS (slow builds) looks at every seventeenth number only.
 #include "lanes/math.h"
@@ -521,6 +521,145 @@ TEST_CASE("atan2: rises by at most one unit in the last place too little, all ar
     }
 }
 
+// --- what is made of these ---
+
+namespace {
+
+// The largest relative error over numbers of [low, high), evenly spaced, and over all kinds of numbers within. Results
+// below the normal numbers and beyond the range are left out.
+template <class Function, class Exact>
+double relativeError(double low, double high, Function function, Exact exact)
+{
+    Error error;
+    const auto add = [&](float x, float y) {
+        const double e = exact(double{x});
+        if (std::abs(e) >= 1.17549435e-38 && std::abs(e) < 3.4e38) error.addRelative(x, y, e);
+    };
+    evaluate(Range(low, high, 1000000 / kStride), function, add);
+    std::vector<float> within;
+    for (const float x : manyFloats()) {
+        if (x >= low && x < high) within.push_back(x);
+    }
+    evaluate(List{within}, function, add);
+    CAPTURE(error.at);
+    return error.largest;
+}
+
+}  // namespace
+
+TEST_CASE("exp: relative error below 1.2e-7")
+{
+    const auto function = [](Float x) { return exp(x); };
+    const auto exact = [](double x) { return std::exp(x); };
+    CHECK(relativeError(-87.3, 88.7, function, exact) < 1.2e-7);
+    CHECK(relativeError(-1.0, 1.0, function, exact) < 1.2e-7);
+    CHECK(same(exp(Float(0.0f))[0], 1.0f));
+    CHECK(same(exp(Float(-kInfinity))[0], 0.0f));
+    CHECK(same(exp(Float(-200.0f))[0], 0.0f));
+    CHECK(same(exp(Float(kInfinity))[0], kInfinity));
+    CHECK(same(exp(Float(89.0f))[0], kInfinity));
+    CHECK(std::abs(double{exp(Float(-100.0f))[0]} - std::exp(-100.0)) < 0x1p-149);  // subnormal
+}
+
+TEST_CASE("log and log10: relative errors below 2.7e-7 and 3.1e-7")
+{
+    const auto natural = [](Float x) { return log(x); };
+    const auto decimal = [](Float x) { return log10(x); };
+    for (const double high : {2.0, 1e30}) {
+        CHECK(relativeError(high * 1e-30, high, natural, [](double x) { return std::log(x); }) < 2.7e-7);
+        CHECK(relativeError(high * 1e-30, high, decimal, [](double x) { return std::log10(x); }) < 3.1e-7);
+    }
+    CHECK(same(log(Float(1.0f))[0], 0.0f));
+    CHECK(same(log(Float(0.0f))[0], -kInfinity));
+    CHECK(same(log10(Float(kInfinity))[0], kInfinity));
+}
+
+TEST_CASE("sinh, cosh and tanh: relative errors below 2e-7, 1.6e-7 and 2e-7; odd, even, odd")
+{
+    const auto ofSinh = [](Float x) { return sinh(x); };
+    const auto ofCosh = [](Float x) { return cosh(x); };
+    const auto ofTanh = [](Float x) { return tanh(x); };
+    for (const double end : {1.5, 88.0}) {
+        CHECK(relativeError(-end, end, ofSinh, [](double x) { return std::sinh(x); }) < 2e-7);
+        CHECK(relativeError(-end, end, ofCosh, [](double x) { return std::cosh(x); }) < 1.6e-7);
+        CHECK(relativeError(-end, end, ofTanh, [](double x) { return std::tanh(x); }) < 2e-7);
+    }
+    CHECK(same(sinh(Float(-0.0f))[0], -0.0f));
+    CHECK(same(tanh(Float(-0.0f))[0], -0.0f));
+    CHECK(same(tanh(Float(-kInfinity))[0], -1.0f));
+    CHECK(same(sinh(Float(-kInfinity))[0], -kInfinity));
+    CHECK(same(cosh(Float(-kInfinity))[0], kInfinity));
+}
+
+TEST_CASE("tan: error below 2e-7 (1 + tan^2)")
+{
+    Error error;
+    for (const double end : {1.0, 20.0, 8192.0}) {
+        evaluate(
+            Range(-end, end, 1000000 / kStride), [](Float x) { return tan(x); },
+            [&](float x, float y) {
+                const double exact = std::tan(double{x});
+                error.add(std::abs(y - exact) / (1.0 + exact * exact), x);
+            });
+    }
+    CAPTURE(error.at);
+    CHECK(error.largest < 2e-7);
+}
+
+TEST_CASE("asin, acos and atan: relative errors below 1.9e-7, 2.2e-7 and 1.3e-7")
+{
+    const auto ofAsin = [](Float x) { return asin(x); };
+    const auto ofAcos = [](Float x) { return acos(x); };
+    const auto ofAtan = [](Float x) { return atan(x); };
+    for (const double low : {-1.0, 0.9, 0.9999}) {
+        CHECK(relativeError(low, 1.0, ofAsin, [](double x) { return std::asin(x); }) < 1.9e-7);
+        CHECK(relativeError(low, 1.0, ofAcos, [](double x) { return std::acos(x); }) < 2.2e-7);
+    }
+    for (const double end : {2.0, 1e20})
+        CHECK(relativeError(-end, end, ofAtan, [](double x) { return std::atan(x); }) < 1.3e-7);
+    constexpr auto kPi = static_cast<float>(std::numbers::pi);
+    constexpr auto kHalfPi = static_cast<float>(std::numbers::pi / 2.0);
+    CHECK(acos(Float(1.0f))[0] == 0.0f);
+    CHECK(acos(Float(-1.0f))[0] == kPi);
+    CHECK(asin(Float(-1.0f))[0] == -kHalfPi);
+    CHECK(same(asin(Float(-0.0f))[0], -0.0f));
+    CHECK(atan(Float(kInfinity))[0] == kHalfPi);
+    CHECK(same(atan(Float(-0.0f))[0], -0.0f));
+}
+
+TEST_CASE("every NaN that a function makes is the same one, whatever came in and however it was compiled")
+{
+    volatile float hidden = -1.0f;  // the compiler must not work it out
+    const float below = hidden, otherNan = std::bit_cast<float>(0xffc12345u);
+    volatile float alsoHidden = otherNan;
+    const auto isTheOne = [](Float x) { return all(asInt(x) == Int(0x7fc00000)); };
+    for (const float x : {below, float{alsoHidden}}) {
+        CHECK(isTheOne(log2(Float(x))));
+        CHECK(isTheOne(log(Float(x))));
+        CHECK(isTheOne(log10(Float(x))));
+        CHECK(isTheOne(pow(Float(x), Float(0.5f))));
+        CHECK(isTheOne(asin(Float(x) * 2.0f)));
+        CHECK(isTheOne(acos(Float(x) * 2.0f)));
+    }
+    CHECK(isTheOne(log2(Float(-1.0f))));  // the compiler does
+    CHECK(isTheOne(pow(Float(-1.0f), Float(0.5f))));
+    const Float nan = float{alsoHidden};
+    CHECK(isTheOne(exp2(nan)));
+    CHECK(isTheOne(exp(nan)));
+    CHECK(isTheOne(pow(nan, Float(2.0f))));
+    CHECK(isTheOne(pow(Float(2.0f), nan)));
+    CHECK(isTheOne(sin(nan)));
+    CHECK(isTheOne(cos(Float(2e6f))));
+    CHECK(isTheOne(tan(nan)));
+    CHECK(isTheOne(atan2(nan, Float(1.0f))));
+    CHECK(isTheOne(atan2(Float(-1.0f), nan)));
+    CHECK(isTheOne(atan(nan)));
+    CHECK(isTheOne(sinh(nan)));
+    CHECK(isTheOne(cosh(nan)));
+    CHECK(isTheOne(tanh(nan)));
+    CHECK(all(asint(nan) == Int(0x7fc00000)));
+}
+
 // --- the same bits everywhere ---
 
 TEST_CASE("the functions of one number give the bits of the lanes")
@@ -561,4 +700,32 @@ TEST_CASE("atan2 has the bits that it has in every other build")
             [&](float, float y) { hash.add(std::isnan(y) ? 0x7fc00000u : std::bit_cast<std::uint32_t>(y)); });
     }
     CHECK(hash.value == 0x3c48e9b222a2615au);
+}
+
+TEST_CASE("exp, log, tan and their like have the bits that they have in every other build")
+{
+    const std::vector<float> inputs = manyFloats();
+    Fnv1a hash;
+    const auto add = [&](float, float y) { hash.add(std::bit_cast<std::uint32_t>(y)); };
+    evaluate(
+        List{inputs}, [](Float x) { return exp(x); }, add);
+    evaluate(
+        List{inputs}, [](Float x) { return log(x); }, add);
+    evaluate(
+        List{inputs}, [](Float x) { return log10(x); }, add);
+    evaluate(
+        List{inputs}, [](Float x) { return tan(x); }, add);
+    evaluate(
+        List{inputs}, [](Float x) { return asin(x); }, add);
+    evaluate(
+        List{inputs}, [](Float x) { return acos(x); }, add);
+    evaluate(
+        List{inputs}, [](Float x) { return atan(x); }, add);
+    evaluate(
+        List{inputs}, [](Float x) { return sinh(x); }, add);
+    evaluate(
+        List{inputs}, [](Float x) { return cosh(x); }, add);
+    evaluate(
+        List{inputs}, [](Float x) { return tanh(x); }, add);
+    CHECK(hash.value == 0x3b4f776150ebd92bu);
 }

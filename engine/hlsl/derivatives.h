@@ -24,40 +24,57 @@ inline Float ddy_coarse(Float v)
     return permuteQuad<2, 2, 2, 2>(v) - permuteQuad<0, 0, 0, 0>(v);
 }
 
-namespace detail {
-
-template <int size, class Function>
-FloatN<size> eachComponent(const FloatN<size>& v, Function function)
+// The sum of both changes: how far a value goes on within one pixel.
+inline Float fwidth(Float v)
 {
-    FloatN<size> r;
-    for (int i = 0; i < size; ++i) r[i] = function(v[i]);
-    return r;
+    return abs(ddx(v)) + abs(ddy(v));
 }
 
-}  // namespace detail
-
-template <int size>
-FloatN<size> ddx(const FloatN<size>& v)
+// HLSL's names for the default.
+inline Float ddx_fine(Float v)
 {
-    return detail::eachComponent(v, [](Float x) { return ddx(x); });
+    return ddx(v);
+}
+inline Float ddy_fine(Float v)
+{
+    return ddy(v);
 }
 
-template <int size>
-FloatN<size> ddy(const FloatN<size>& v)
+// Of each component.
+template <int n>
+LaneVector<Float, n> ddx(const LaneVector<Float, n>& v)
 {
-    return detail::eachComponent(v, [](Float x) { return ddy(x); });
+    return detail::each<LaneVector<Float, n>>([](Float x) { return ddx(x); }, v);
 }
-
-template <int size>
-FloatN<size> ddx_coarse(const FloatN<size>& v)
+template <int n>
+LaneVector<Float, n> ddy(const LaneVector<Float, n>& v)
 {
-    return detail::eachComponent(v, [](Float x) { return ddx_coarse(x); });
+    return detail::each<LaneVector<Float, n>>([](Float x) { return ddy(x); }, v);
 }
-
-template <int size>
-FloatN<size> ddy_coarse(const FloatN<size>& v)
+template <int n>
+LaneVector<Float, n> ddx_coarse(const LaneVector<Float, n>& v)
 {
-    return detail::eachComponent(v, [](Float x) { return ddy_coarse(x); });
+    return detail::each<LaneVector<Float, n>>([](Float x) { return ddx_coarse(x); }, v);
+}
+template <int n>
+LaneVector<Float, n> ddy_coarse(const LaneVector<Float, n>& v)
+{
+    return detail::each<LaneVector<Float, n>>([](Float x) { return ddy_coarse(x); }, v);
+}
+template <int n>
+LaneVector<Float, n> ddx_fine(const LaneVector<Float, n>& v)
+{
+    return ddx(v);
+}
+template <int n>
+LaneVector<Float, n> ddy_fine(const LaneVector<Float, n>& v)
+{
+    return ddy(v);
+}
+template <int n>
+LaneVector<Float, n> fwidth(const LaneVector<Float, n>& v)
+{
+    return abs(ddx(v)) + abs(ddy(v));
 }
 
 }  // namespace relief

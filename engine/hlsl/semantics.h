@@ -129,8 +129,8 @@ using nointerpolation = typename semantic::With<S, Interpolation::flat>::Type;
 
 template <class T>
 inline constexpr int kComponents = 1;
-template <int size>
-inline constexpr int kComponents<FloatN<size>> = size;
+template <class T, int size>
+inline constexpr int kComponents<LaneVector<T, size>> = size;
 
 template <class T>
 concept IsSemantic = requires
@@ -151,8 +151,8 @@ inline Int& component(Int& v, int)
 {
     return v;
 }
-template <int size>
-Float& component(FloatN<size>& v, int i)
+template <class T, int size>
+T& component(LaneVector<T, size>& v, int i)
 {
     return v[i];
 }

@@ -65,6 +65,14 @@ inline Mask isnan(Float a)
 {
     return a != a;
 }
+inline Mask isfinite(Float a)
+{
+    return a - a == 0.0f;
+}
+inline Mask isinf(Float a)
+{
+    return (a - a != 0.0f) & (a == a);
+}
 
 inline Int asInt(Float a)
 {
@@ -73,6 +81,29 @@ inline Int asInt(Float a)
 inline Float asFloat(Int a)
 {
     return Float((native::FloatVector)a.value);
+}
+
+// The NaN that functions give. An operation of the processor gives one of the other sign, and a compiler that works the
+// operation out beforehand may give either: a written one is the same in every build.
+inline Float quietNan()
+{
+    return asFloat(Int(0x7fc00000));
+}
+
+// HLSL's asint: as asInt, but every NaN is the one above, because the bits of others depend on the build.
+inline Int asint(Float a)
+{
+    return select(isnan(a), Int(0x7fc00000), asInt(a));
+}
+inline Float asfloat(Int a)
+{
+    return asFloat(a);
+}
+
+// a with the sign of b, that of a zero included.
+inline Float copySign(Float a, Float b)
+{
+    return asFloat((asInt(a) & 0x7fffffff) | (asInt(b) & Int(std::numeric_limits<std::int32_t>::min())));
 }
 
 inline Float abs(Float a)
@@ -94,6 +125,16 @@ inline Float ceil(Float a)
 inline Float frac(Float a)
 {
     return a - floor(a);
+}
+inline Float trunc(Float a)
+{
+    return copySign(floor(abs(a)), a);
+}
+// To the nearest integer, ties to even. From 2^23 on floats are whole; below, adding 2^23 leaves no room for fractions.
+inline Float round(Float a)
+{
+    const Float whole = abs(a) + 8388608.0f - 8388608.0f;
+    return select(abs(a) < 8388608.0f, copySign(whole, a), a);
 }
 
 // The number, where one of the two is NaN (IEEE 754-2019 minimumNumber; D3D 11.3, 22.19).
@@ -135,9 +176,3 @@ Float permuteQuad(Float a)
 }
 
 }  // namespace relief
-
-// What GLM's vectors ask of their element type.
-template <>
-class std::numeric_limits<relief::Float> : public std::numeric_limits<float>
-{
-};

@@ -116,7 +116,7 @@ inline Int inRows(Int a)
 {
     return [a]<int... i>(std::integer_sequence<int, i...>)
     {
-        return Int(__builtin_shufflevector(a.value, a.value, laneAt(i % kBlockWidth, i / kBlockWidth)...));
+        return Int(native::shuffle<laneAt(i % kBlockWidth, i / kBlockWidth)...>(a.value, a.value));
     }
     (std::make_integer_sequence<int, kLanes>());
 }

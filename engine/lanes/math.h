@@ -1,22 +1,21 @@
-// exp2, log2, pow, sin, cos and atan2 from exact operations alone, so that they give the same bits everywhere (a C
-// library does not promise that). The errors are the largest over all mantissas as tests/lanes_math.cpp measures them;
-// D3D 11.3 (22.10) asks for a relative 2^-21 = 4.8e-7 of exp2 and log2 and an absolute 8e-4 of sin and cos.
+// exp, log, pow, sin, cos and their like from exact operations alone, so that they give the same bits everywhere (a C
+// library does not promise that); a NaN that they give is always quietNan(). The errors are the largest over all
+// mantissas as tests/lanes_math.cpp measures them; D3D 11.3 (22.10) asks for a relative 2^-21 = 4.8e-7 of exp2 and log2
+// and an absolute 8e-4 of sin and cos.
 #pragma once
 
+#include <limits>
+
 #include "lanes/float.h"
+#include "lanes/trigonometry.h"
 
 namespace relief {
 
-// 2^x. Relative error below 1.1e-7 where the result is a normal number, absolute error below 2^-149 (the smallest
-// subnormal) where it is not. Integers give exact powers. exp2(-inf) = 0, overflow is +inf.
-inline Float exp2(Float x)
+namespace detail {
+
+// 2^(integer + f), f in [-0.5, 0.5].
+inline Float exp2OfParts(Int integer, Float f)
 {
-    // Split into an integer, which becomes exponent bits, and a rest in [-0.5, 0.5] for a polynomial with p(0) = 1.
-    // From -254 down both factors below are 0, exactly: a product that has to be rounded to 0 takes the processor
-    // longer than all of the rest, and pow(0, y), where nothing shines, is common.
-    const Float limited = clamp(x, -254.0f, 129.0f);
-    const Int integer = roundToInt(limited);
-    const Float f = limited - Float(integer);
     Float p = 0.0001546973198f;
     p = p * f + 0.001341000097f;
     p = p * f + 0.009618030783f;
@@ -29,7 +28,31 @@ inline Float exp2(Float x)
     const Int half = integer >> 1;
     const Float scaleA = asFloat((half + 127) << 23);
     const Float scaleB = asFloat((integer - half + 127) << 23);
-    return select(isnan(x), x, p * scaleA * scaleB);
+    return p * scaleA * scaleB;
+}
+
+}  // namespace detail
+
+// 2^x. Relative error below 1.1e-7 where the result is a normal number, absolute error below 2^-149 (the smallest
+// subnormal) where it is not. Integers give exact powers. exp2(-inf) = 0, overflow is +inf.
+inline Float exp2(Float x)
+{
+    // Split into an integer, which becomes exponent bits, and a rest in [-0.5, 0.5] for a polynomial with p(0) = 1.
+    // From -254 down both factors are 0, exactly: a product that has to be rounded to 0 takes the processor longer than
+    // all of the rest, and pow(0, y), where nothing shines, is common.
+    const Float limited = clamp(x, -254.0f, 129.0f);
+    const Int integer = roundToInt(limited);
+    return select(isnan(x), quietNan(), detail::exp2OfParts(integer, limited - Float(integer)));
+}
+
+// e^x, by 2^n e^r with x = n ln 2 + r: ln 2 in two parts, so that r is good to the last bit. Relative error below
+// 1.2e-7 where the result is a normal number; the rest as exp2.
+inline Float exp(Float x)
+{
+    const Float limited = clamp(x, -176.0f, 89.0f);
+    const Int n = roundToInt(limited * 1.44269504f);
+    const Float r = limited - Float(n) * 0.693359375f + Float(n) * 2.12194440e-4f;
+    return select(isnan(x), quietNan(), detail::exp2OfParts(n, r * 1.44269504f));
 }
 
 namespace detail {
@@ -63,8 +86,18 @@ inline Float log2(Float x)
     const Float result = detail::log2OfNormal(scaled, select(tiny, Float(23.0f), Float(0.0f)));
 
     const float infinity = std::numeric_limits<float>::infinity();
-    const Float special = select(x == 0.0f, Float(-infinity), select(x < 0.0f, Float(0.0f) / Float(0.0f), x));
+    const Float special = select(x == 0.0f, Float(-infinity), select(x > 0.0f, x, quietNan()));
     return select((x > 0.0f) & (x < infinity), result, special);
+}
+
+// The natural and the decimal logarithm: relative errors below 2.7e-7 and 3.1e-7.
+inline Float log(Float x)
+{
+    return log2(x) * 0.693147181f;
+}
+inline Float log10(Float x)
+{
+    return log2(x) * 0.301029996f;
 }
 
 // x^y = exp2(y log2 x), HLSL's definition: NaN for x < 0. x^0 = 1 for every x, 0 included.
@@ -74,79 +107,27 @@ inline Float pow(Float x, Float y)
     return select(y == 0.0f, Float(1.0f), exp2(y * log2(x)));
 }
 
-namespace detail {
-
-// sin where phase is 0, cos where it is 1.
-inline Float sine(Float x, int phase)
+// The hyperbolic functions: relative errors below 2e-7, 1.6e-7 and 2e-7. Near 0, where the difference of two
+// exponentials has no digits left, sinh is its series.
+inline Float cosh(Float x)
 {
-    // x = quadrant * pi/2 + r. pi/2 in three parts, the first two so short that quadrant * part is exact.
-    const Float limited = clamp(x, -1e6f, 1e6f);
-    const Int quadrant = roundToInt(limited * 0.636619772f);
-    const Float q = Float(quadrant);
-    const Float r = limited - q * 1.5703125f - q * 4.837512969970703e-4f - q * 7.549789948768648e-8f;
-
-    const Float t = r * r;
-    Float sin = -0.0001950402201f;
-    sin = sin * t + 0.008332036875f;
-    sin = sin * t - 0.166666507f;
-    sin = sin * t * r + r;
-    Float cos = 2.437992935e-05f;
-    cos = cos * t - 0.001388661921f;
-    cos = cos * t + 0.04166661674f;
-    cos = cos * t - 0.4999999962f;
-    cos = cos * t + 1.0f;
-
-    const Int turn = quadrant + phase;
-    const Float result = select((turn & 1) == 1, cos, sin);
-    const Float flipped = asFloat(asInt(result) ^ ((turn & 2) << 30));
-    return select(abs(x) <= 1e6f, flipped, Float(0.0f) / Float(0.0f));
+    const Float e = exp(abs(x));
+    return 0.5f * e + 0.5f / e;
 }
-
-}  // namespace detail
-
-// Sine and cosine of radians: absolute error below 1e-7 for |x| <= 8192, below 1e-6 up to 1e5. Beyond 1e6, where a
-// float is too coarse for an angle to mean anything, and for NaN and infinities: NaN.
-inline Float sin(Float x)
+inline Float sinh(Float x)
 {
-    return detail::sine(x, 0);
+    const Float t = x * x;
+    const Float series =
+        x + x * t * ((((2.75573192e-6f * t + 1.98412698e-4f) * t + 8.33333333e-3f) * t) + 0.166666667f);
+    const Float e = exp(abs(x));
+    const Float far = copySign(0.5f * e - 0.5f / e, x);
+    return select(isnan(x), quietNan(), select(t < 1.0f, series, far));
 }
-inline Float cos(Float x)
+inline Float tanh(Float x)
 {
-    return detail::sine(x, 1);
-}
-
-// The angle of the point (x, y) in radians, from +x towards +y, -pi to pi; the sign is y's, that of a zero included.
-// Relative error below 1.2e-7 where the result is a normal number; absolute error below 2.1e-7 all around the circle.
-// atan2(+-0, x) = +-0 for x >= +0, +-pi for x <= -0; infinities are directions too: atan2(+inf, -inf) = 3/4 pi. NaN
-// where x or y is NaN. Axes and diagonals give the floats nearest to the multiples of pi/4.
-inline Float atan2(Float y, Float x)
-{
-    // The angle to the nearest axis, from the ratio of the smaller to the larger length: 0 to 1, for equal lengths too.
-    const Float absX = abs(x);
-    const Float absY = abs(y);
-    const Mask steep = absY > absX;
-    const Float shorter = select(steep, absX, absY);
-    const Float longer = select(steep, absY, absX);
-    const Float ifEqual = select(longer == 0.0f, Float(0.0f), Float(1.0f));
-    const Float r = select(shorter == longer, ifEqual, shorter / longer);
-    const Float t = r * r;
-    Float p = 0.0029206865f;
-    p = p * t - 0.01636790484f;
-    p = p * t + 0.04321182147f;
-    p = p * t - 0.07552210987f;
-    p = p * t + 0.1066600308f;
-    p = p * t - 0.1421105564f;
-    p = p * t + 0.199937731f;
-    p = p * t - 0.3333315253f;
-    const Float toAxis = r + r * (t * p);
-
-    // Added to the axis or taken from it. pi is the sum of two floats, so that it is as if it were exact.
-    const Mask left = asInt(x) < 0;
-    const Float axis = select(steep, Float(1.57079637f), select(left, Float(3.14159274f), Float(0.0f)));
-    const Float rest = select(steep, Float(-4.37113883e-8f), select(left, Float(-8.74227766e-8f), Float(0.0f)));
-    const Mask before = (steep & !left) | (left & !steep);
-    const Float angle = axis + (rest + select(before, -toAxis, toAxis));
-    return asFloat(asInt(angle) | (asInt(y) & Int(std::numeric_limits<std::int32_t>::min())));
+    const Float a = min(abs(x), Float(10.0f));  // from there on it is 1
+    const Float far = copySign(1.0f - 2.0f / (exp(2.0f * a) + 1.0f), x);
+    return select(isnan(x), quietNan(), select(a < 0.55f, sinh(x) / cosh(x), far));
 }
 
 // The same for one number, with the same bits.
@@ -161,18 +142,6 @@ inline float log2(float x)
 inline float pow(float x, float y)
 {
     return pow(Float(x), Float(y))[0];
-}
-inline float sin(float x)
-{
-    return sin(Float(x))[0];
-}
-inline float cos(float x)
-{
-    return cos(Float(x))[0];
-}
-inline float atan2(float y, float x)
-{
-    return atan2(Float(y), Float(x))[0];
 }
 
 }  // namespace relief

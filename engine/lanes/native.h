@@ -1,13 +1,15 @@
-// The few operations that compiler vectors do not have (comparison to mask, square root, rounding, transposed loads and
-// stores), once per instruction set. Everything above this file is written with these and + - * / on compiler vectors.
-// Each function here gives the same bits in all four variants: that is what tests/lanes.cpp checks.
+// The operations on compiler vectors that everything above this folder is written with. What compilers turn into one
+// instruction for every instruction set and width stands here, once: + - * / and comparisons, minimum and maximum,
+// conversions, shuffles. What they do not (square root, rounding, masks, doubles, moving a quad) has a file per
+// instruction set. Each function gives the same bits in all of them: that is what tests/lanes.cpp checks.
 //
-// This is the only place in the engine that knows an instruction set by name.
+// This folder is the only place in the engine that knows an instruction set by name.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "lanes/width.h"
 
@@ -18,9 +20,147 @@ typedef std::int32_t IntVector __attribute__((vector_size(4 * kLanes)));
 typedef std::uint32_t UintVector __attribute__((vector_size(4 * kLanes)));
 typedef std::uint16_t HalfVector __attribute__((vector_size(4 * kLanes)));  // two in each lane
 typedef double DoubleVector __attribute__((vector_size(4 * kLanes)));       // half of the lanes
+typedef std::int32_t QuadVector __attribute__((vector_size(16)));           // four lanes, or 16 bytes of memory
+
+// A mask is a vector of 0 and -1, except on AVX-512, which has registers for masks.
+#if RELIEF_LANES != 16
+typedef IntVector MaskVector;
+
+inline MaskVector less(FloatVector a, FloatVector b)
+{
+    return (MaskVector)(a < b);
+}
+inline MaskVector lessEqual(FloatVector a, FloatVector b)
+{
+    return (MaskVector)(a <= b);
+}
+inline MaskVector equal(FloatVector a, FloatVector b)
+{
+    return (MaskVector)(a == b);
+}
+inline MaskVector less(IntVector a, IntVector b)
+{
+    return (MaskVector)(a < b);
+}
+inline MaskVector equal(IntVector a, IntVector b)
+{
+    return (MaskVector)(a == b);
+}
+inline MaskVector maskAnd(MaskVector a, MaskVector b)
+{
+    return a & b;
+}
+inline MaskVector maskOr(MaskVector a, MaskVector b)
+{
+    return a | b;
+}
+inline MaskVector maskNot(MaskVector a)
+{
+    return ~a;
+}
+inline MaskVector maskFromBits(unsigned bits)
+{
+    const IntVector lane = []<int... i>(std::integer_sequence<int, i...>)
+    {
+        return IntVector{(1 << i)...};
+    }
+    (std::make_integer_sequence<int, kLanes>());
+    return equal(lane & static_cast<std::int32_t>(bits), lane);
+}
+#endif
+
+// The second operand where one of the two is NaN.
+inline FloatVector min(FloatVector a, FloatVector b)
+{
+    return a < b ? a : b;
+}
+inline FloatVector max(FloatVector a, FloatVector b)
+{
+    return a > b ? a : b;
+}
+inline IntVector min(IntVector a, IntVector b)
+{
+    return a < b ? a : b;
+}
+inline IntVector max(IntVector a, IntVector b)
+{
+    return a > b ? a : b;
+}
+
+// The larger of two numbers that are not negative, NaN where one of them is NaN. In the order of their bits NaN is the
+// largest; where no instruction compares unsigned integers, all bits are set if the first is NaN.
+inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
+{
+    if constexpr (kLanes > 4) {
+        const UintVector u = (UintVector)a, v = (UintVector)b;
+        return (FloatVector)(u > v ? u : v);
+    } else {
+        return (FloatVector)((IntVector)max(a, b) | (IntVector)(a != a));
+    }
+}
+
+inline FloatVector toFloat(IntVector a)
+{
+    return __builtin_convertvector(a, FloatVector);
+}
+// Toward zero, of numbers that an integer can hold.
+inline IntVector truncateToInt(FloatVector a)
+{
+    return __builtin_convertvector(a, IntVector);
+}
+
+// Lane i of the result is lane from[i] of a, and from[i] - kLanes of b.
+template <int... from, class V>
+inline V shuffle(V a, V b)
+{
+#if __has_builtin(__builtin_shufflevector)
+    return __builtin_shufflevector(a, b, from...);
+#else
+    return __builtin_shuffle(a, b, IntVector{from...});  // g++ 11
+#endif
+}
+
+namespace detail {
+
+// Where a lane comes from if its place in the quad gets lane k: 0 to 3 of a's quad, 4 to 7 of b's.
+constexpr int laneOfQuad(int lane, int k)
+{
+    return lane / 4 * 4 + (k < 4 ? k : k - 4 + kLanes);
+}
+
+template <int k0, int k1, int k2, int k3, class V, int... lane>
+inline V shuffleQuads(V a, V b, std::integer_sequence<int, lane...>)
+{
+    constexpr int k[4] = {k0, k1, k2, k3};
+    return shuffle<laneOfQuad(lane, k[lane % 4])...>(a, b);
+}
+
+}  // namespace detail
+
+// In every quad the lanes k0, k1, k2 and k3: 0 to 3 are those of a's quad, 4 to 7 those of b's.
+template <int k0, int k1, int k2, int k3, class V>
+inline V shuffleQuads(V a, V b)
+{
+    return detail::shuffleQuads<k0, k1, k2, k3>(a, b, std::make_integer_sequence<int, kLanes>());
+}
+template <int k0, int k1, int k2, int k3>
+inline FloatVector permuteQuad(FloatVector a)
+{
+    return shuffleQuads<k0, k1, k2, k3>(a, a);
+}
+
+inline QuadVector loadQuad(const std::byte* address)
+{
+    QuadVector r;
+    std::memcpy(&r, address, sizeof r);
+    return r;
+}
 
 }  // namespace relief::native
 
+// Each of these files has: select; signBits, maskBits; sqrt, floor, roundToInt; lowToDouble, highToDouble, toFloat,
+// negativeBits; insertQuad, storeQuads, loadTwoHalves; multiplyAddHalves. NEON and wasm's vectors (4 lanes) are to
+// stand here, before the portable one, as native_neon.h and native_wasm.h.
 #if RELIEF_LANES == 16
 #include "lanes/native_avx512.h"
 #elif RELIEF_LANES == 8
@@ -31,54 +171,4 @@ typedef double DoubleVector __attribute__((vector_size(4 * kLanes)));       // h
 #include "lanes/native_portable.h"
 #endif
 
-namespace relief::native {
-
-// Calls visit.operator()<quad>() for every quad of a block.
-template <class Visit>
-[[gnu::always_inline]] inline void forEachQuad(const Visit& visit)
-{
-    visit.template operator()<0>();
-    if constexpr (kLanes > 4) visit.template operator()<1>();
-    if constexpr (kLanes > 8) {
-        visit.template operator()<2>();
-        visit.template operator()<3>();
-    }
-}
-
-// out[k] lane i = the k-th 32-bit word at address(i). Words is FourWords or TwoWords: 16 or 8 bytes are read per lane.
-template <class Words, class Address>
-[[gnu::always_inline]] inline void loadTransposed(const Address& address, IntVector* out)
-{
-    Words words;
-    forEachQuad([&]<int quad>() __attribute__((always_inline)) {
-        words.template add<quad>(address(4 * quad), address(4 * quad + 1), address(4 * quad + 2),
-                                 address(4 * quad + 3));
-    });
-    words.transposed(out);
-}
-
-// From two addresses per lane, lane by lane: what both are made of, such as an index, is then read only once.
-template <class Words, class Address, class OtherAddress>
-[[gnu::always_inline]] inline void loadTransposed(const Address& address, const OtherAddress& other, IntVector* out,
-                                                  IntVector* otherOut)
-{
-    Words words, otherWords;
-    forEachQuad([&]<int quad>() __attribute__((always_inline)) {
-        constexpr int a = 4 * quad, b = a + 1, c = a + 2, d = a + 3;
-        words.template add<quad>(address(a), address(b), address(c), address(d));
-        otherWords.template add<quad>(other(a), other(b), other(c), other(d));
-    });
-    words.transposed(out);
-    otherWords.transposed(otherOut);
-}
-
-inline void loadTransposed(const std::byte* const* address, IntVector out[4])
-{
-    loadTransposed<FourWords>([address](int lane) { return address[lane]; }, out);
-}
-inline void loadTransposedPair(const std::byte* const* address, IntVector out[2])
-{
-    loadTransposed<TwoWords>([address](int lane) { return address[lane]; }, out);
-}
-
-}  // namespace relief::native
+#include "lanes/native_transpose.h"

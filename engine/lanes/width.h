@@ -10,6 +10,10 @@
 // The results do not depend on the width; the speed does. The default is the widest that the target has in hardware.
 #pragma once
 
+#if defined(__FAST_MATH__)
+#error "compile without -ffast-math: it lets the compiler change the order of sums and drop NaN, and so the picture"
+#endif
+
 #if !defined(RELIEF_LANES)
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define RELIEF_LANES 16

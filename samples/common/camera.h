@@ -1,9 +1,10 @@
-// The camera and the matrices on the CPU side: plain floats, exact operations only (the engine's own sine and cosine),
-// so that every machine gets the same matrices.
+// The camera of a stage, and the matrices that it stands for (engine/shading/camera.h).
 #pragma once
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+
+#include "shading/camera.h"
 
 namespace relief::samples {
 
@@ -18,15 +19,20 @@ struct Camera
     float nearPlane = 0.05f, farPlane = 100.0f;
 };
 
-glm::mat4 viewFromWorld(const Camera& camera);
+inline glm::mat4 viewFromWorld(const Camera& camera)
+{
+    return lookAt(camera.position, camera.target);
+}
 
 // Depth 0 at the near plane, 1 at the far plane. aspect = width / height.
-glm::mat4 clipFromView(const Camera& camera, float aspect);
+inline glm::mat4 clipFromView(const Camera& camera, float aspect)
+{
+    return perspective(camera.fieldOfView, aspect, camera.nearPlane, camera.farPlane);
+}
 
-// Turns by an angle in degrees about one axis: left-handed, positive as Unity's inspector shows it.
-glm::mat4 rotationX(float degrees);
-glm::mat4 rotationY(float degrees);
-glm::mat4 translation(const glm::vec3& offset);
-glm::mat4 scaling(const glm::vec3& factors);
+using relief::rotationX;
+using relief::rotationY;
+using relief::scaling;
+using relief::translation;
 
 }  // namespace relief::samples

@@ -1,0 +1,103 @@
+// HLSL's intrinsic functions of one value of lanes, as far as lanes/ does not have them under HLSL's names: what
+// vector_intrinsics.h applies to each component.
+#pragma once
+
+#include "lanes/math.h"
+
+namespace relief {
+
+inline Float lerp(Float a, Float b, Float t)
+{
+    return a + (b - a) * t;
+}
+inline Float step(Float edge, Float x)
+{
+    return select(x >= edge, Float(1.0f), Float(0.0f));
+}
+inline Float sign(Float x)
+{
+    return select(x > 0.0f, Float(1.0f), select(x < 0.0f, Float(-1.0f), Float(0.0f)));
+}
+// -1 or 1: 1 for both zeros, where sign() gives 0, and for NaN.
+inline Float signNotZero(Float x)
+{
+    return select(x < 0.0f, Float(-1.0f), Float(1.0f));
+}
+inline Float rcp(Float x)
+{
+    return 1.0f / x;
+}
+inline Float rsqrt(Float x)
+{
+    return 1.0f / sqrt(x);
+}
+inline Float smoothstep(Float low, Float high, Float x)
+{
+    const Float t = saturate((x - low) / (high - low));
+    return t * t * (3.0f - 2.0f * t);
+}
+
+inline Float degrees(Float x)
+{
+    return x * 57.2957795f;
+}
+inline Float radians(Float x)
+{
+    return x * 0.0174532925f;
+}
+// Two roundings, on every machine: never a fused multiply-add.
+inline Float mad(Float a, Float b, Float c)
+{
+    return a * b + c;
+}
+inline Int mad(Int a, Int b, Int c)
+{
+    return a * b + c;
+}
+inline Float mul(Float a, Float b)
+{
+    return a * b;
+}
+inline Float dot(Float a, Float b)
+{
+    return a * b;
+}
+// What remains of x, of x's sign: x - y * trunc(x / y). Exact where the quotient is small, else within 2^-24 of |x|,
+// and always less than |y|. NaN for y = 0 and for an infinite x.
+inline Float fmod(Float x, Float y)
+{
+    const Float a = abs(x), b = abs(y);
+    Float rest = a - b * floor(a / b);
+    rest = select(rest < 0.0f, rest + b, rest);  // the quotient was rounded up
+    rest = select(rest >= b, Float(0.0f), rest);
+    rest = select(isinf(y) & isfinite(x), a, rest);
+    return select(isnan(rest), quietNan(), copySign(rest, x));
+}
+inline Float modf(Float x, Float& whole)
+{
+    whole = trunc(x);
+    return x - whole;
+}
+inline Float ldexp(Float x, Float exponent)
+{
+    return x * exp2(exponent);
+}
+inline Int abs(Int x)
+{
+    return max(x, -x);
+}
+inline Int sign(Int x)
+{
+    return select(x > 0, Int(1), select(x < 0, Int(-1), Int(0)));
+}
+
+// Between two plain numbers: a Float, or an Int where both are integers.
+template <class A, class B>
+requires std::is_arithmetic_v<A> && std::is_arithmetic_v<B>
+auto select(Mask m, A a, B b)
+{
+    using Lanes = std::conditional_t<std::is_integral_v<A> && std::is_integral_v<B>, Int, Float>;
+    return select(m, Lanes(a), Lanes(b));
+}
+
+}  // namespace relief
