@@ -23,6 +23,13 @@ Triangle clockwise(const Corners& c)
     return t;
 }
 
+void bin(TriangleChunk& chunk, const TileGrid& grid, const DrawGeometry* const* draws)
+{
+    chunk.entries.clear();
+    findTiles(chunk, 0, grid, draws);
+    sortByTile(chunk, grid);
+}
+
 }  // namespace
 
 TEST_CASE("bin: tiles get exactly the triangles that no edge keeps out, in order (S-311, S-1004)")
@@ -46,9 +53,8 @@ TEST_CASE("bin: tiles get exactly the triangles that no edge keeps out, in order
             corners.push_back(c);
             chunk.triangles.push_back(t);
         }
-        Statistics statistics;
-        binTriangles(chunk, grid, draws, statistics);
-        CHECK(statistics.trianglesBinned == chunk.sorted.size());
+        bin(chunk, grid, draws);
+        CHECK(chunk.entries.size() == chunk.sorted.size());
         CHECK(chunk.binStart.size() == static_cast<std::size_t>(grid.count()) + 1);
         CHECK(chunk.binStart.back() == chunk.sorted.size());
 
@@ -97,20 +103,19 @@ TEST_CASE("bin: a chunk without triangles, and one with a triangle over all tile
     const DrawGeometry* draws[] = {&draw};
     const TileGrid grid = {16, 7, 7};
     TriangleChunk chunk;
-    Statistics statistics;
-    binTriangles(chunk, grid, draws, statistics);
+    bin(chunk, grid, draws);
     CHECK(chunk.sorted.empty());
     CHECK(chunk.binStart == std::vector<std::uint32_t>(50, 0));
 
     chunk.triangles.push_back(clockwise({{{-25600, -25600}, {25600 * 4, -25600}, {-25600, 25600 * 4}}}));
-    binTriangles(chunk, grid, draws, statistics);
+    bin(chunk, grid, draws);
     CHECK(chunk.sorted == std::vector<std::uint32_t>(49, 0));
-    CHECK(statistics.trianglesBinned == 49);
+    CHECK(chunk.entries.size() == 49);
 
     // Used again: nothing of the frame before is left.
     chunk.clear();
     chunk.triangles.push_back(clockwise({{{0, 0}, {512, 0}, {0, 512}}}));
-    binTriangles(chunk, grid, draws, statistics);
+    bin(chunk, grid, draws);
     CHECK(chunk.sorted == std::vector<std::uint32_t>(1, 0));
     CHECK(chunk.binStart[0] == 0);
     CHECK(chunk.binStart[1] == 1);
@@ -124,8 +129,7 @@ TEST_CASE("bin: the scissor's and the viewport's pixels alone decide on tiles (S
     const DrawGeometry* draws[] = {&draw};
     TriangleChunk chunk;
     chunk.triangles.push_back(clockwise({{{0, 0}, {25600, 0}, {0, 25600}}}));
-    Statistics statistics;
-    binTriangles(chunk, {16, 7, 7}, draws, statistics);
+    bin(chunk, {16, 7, 7}, draws);
     REQUIRE(chunk.entries.size() == 1);
     CHECK(chunk.entries[0].tile == 8);
 }

@@ -90,7 +90,7 @@ std::uint64_t bitsOf(const Framebuffer& target, int x, int y)
 {
     const std::size_t i =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width()) + static_cast<std::size_t>(x);
-    std::uint64_t hash = target.format() == Format::rgba32f ? hashBytes(&target.color32f()[i], sizeof(glm::vec4))
+    std::uint64_t hash = !target.color32f().empty() ? hashBytes(&target.color32f()[i], sizeof(glm::vec4))
                                                                  : hashBytes(&target.color8()[i], 4);
     return hashBytes(&target.depth()[i], 4, hash);
 }

@@ -123,3 +123,69 @@ TEST_CASE("frame life: S-1012 a scene of subnormal numbers has the right bits, a
     stability::noted("times the ordinary scene's time", subnormal / ordinary);
     CHECK(subnormal < 10.0);  // seconds: it ends
 }
+
+TEST_CASE("frame life: a target of another format or size takes the place of the one that was recorded for")
+{
+    const Mesh mesh = randomMesh(12, 200, 90, 60);
+    for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
+        for (const auto& [width, height] : {std::pair{90, 60}, {200, 130}, {17, 5}}) {
+            Framebuffer expected = makeTarget(width, height, format, Store::keep);
+            Frame fresh(expected, {2, 16});
+            const Viewport viewport = exactViewport(90, 60);
+            const auto recordFor = [&](Frame& frame) {
+                frame.clear(glm::vec4(0.25f));
+                frame.setViewport(viewport);
+                frame.setScissor({0, 0, 90, 60});
+                REQUIRE(frame.draw(mesh, FromPixels(viewport), Value{}, kOver).has_value());
+            };
+            recordFor(fresh);
+            fresh.run();
+
+            Framebuffer target = makeTarget(90, 60, Format::rgba8Srgb, Store::discard);
+            Frame frame(target, {2, 16});
+            recordFor(frame);
+            frame.run();
+            target = makeTarget(width, height, format, Store::keep);
+            frame.run();
+            CHECK(sameBits(target, expected));
+        }
+    }
+}
+
+TEST_CASE("frame life: a frame with more triangles than it may keep runs in parts, with the same bits")
+{
+    const Mesh mesh = randomMesh(16, 3000, 90, 60);
+    for (const Store depth : {Store::keep, Store::discard}) {
+        for (const Format format : {Format::rgba8Srgb, Format::rgba32f}) {
+            std::uint64_t first = 0;
+            Statistics whole;
+            for (const std::uint32_t limit : {kMaxBinned, 40000u, 3000u, 1u}) {
+                for (const int threads : {1, 3}) {
+                    CAPTURE(limit);
+                    Framebuffer target = makeTarget(90, 60, format, depth);
+                    Frame frame(target, {threads, 16, limit});
+                    record(frame, mesh, target);
+                    record(frame, mesh, target);  // a second draw
+                    const Statistics statistics = frame.run();
+                    if (first == 0) first = hashOf(target), whole = statistics;
+                    CHECK(hashOf(target) == first);
+                    CHECK(statistics.trianglesBinned == whole.trianglesBinned);
+                    CHECK(statistics.pixelsShaded == whole.pixelsShaded);
+                    CHECK(statistics.tilesTouched == whole.tilesTouched);
+                    frame.run();
+                    CHECK(hashOf(target) == first);
+                }
+            }
+            CHECK(whole.trianglesBinned > 100000);
+        }
+    }
+}
+
+TEST_CASE("frame life: more threads than a machine gives, and targets beyond its memory, are no end of the program")
+{
+    Framebuffer target = makeTarget(20, 20);
+    Frame frame(target, {200000, 16});
+    frame.clear(glm::vec4(0.5f));
+    frame.run();
+    CHECK(pixelsNotEqualTo(target, 0.5f) == 0);
+}

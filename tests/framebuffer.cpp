@@ -3,21 +3,25 @@
 
 #include <string>
 
+#include "pipeline/format.h"
 #include "pipeline_fixture.h"
 
 using namespace fixture;
 
 TEST_CASE("framebuffer: each format has its own storage, of the right size")
 {
-    for (const Format format : {Format::rgba8, Format::rgba8Srgb, Format::rgba32f}) {
+    for (const Format format : {Format::rgba8, Format::rgba8Srgb, Format::rgba16f, Format::r32f, Format::rgba32f}) {
         for (const Store depth : {Store::discard, Store::keep}) {
             const Framebuffer target = makeTarget(7, 5, format, depth);
             CHECK(target.width() == 7);
             CHECK(target.height() == 5);
-            CHECK(target.format() == format);
-            CHECK(target.depthStorage() == depth);
+            CHECK(target.attachments()[0].format == format);
+            CHECK(target.attachments()[1].store == depth);
             CHECK(target.color32f().size() == (format == Format::rgba32f ? 35 : 0));
-            CHECK(target.color8().size() == (format == Format::rgba32f ? 0 : 35));
+            CHECK(target.color16f().size() == (format == Format::rgba16f ? 35 : 0));
+            CHECK(target.colorR32f().size() == (format == Format::r32f ? 35 : 0));
+            CHECK(target.color8().size() == (isUnorm(format) ? 35 : 0));
+            CHECK(target.words(0).size() == 35u * static_cast<unsigned>(wordsPerPixel(format)));
             CHECK(target.depth().size() == (depth == Store::keep ? 35 : 0));
             for (const glm::vec4& c : target.color32f()) CHECK(c == glm::vec4(0.0f));
             for (const std::uint32_t c : target.color8()) CHECK(c == 0);

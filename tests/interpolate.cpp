@@ -25,20 +25,38 @@ Triangle makeTriangle(const Corners& c, const float (&z)[3], const float (&w)[3]
 }
 
 // The weights of one triangle, with the batch that they refer to.
-struct Weights : TriangleWeights
+class Weights
 {
+public:
     explicit Weights(const Triangle& t) : triangle(t)
     {
         const Triangle* const one[] = {&triangle};
         batch.set(one, {0, 0, kMaxTargetSize, kMaxTargetSize});
-        set(batch, 0);
+        edges.set(batch, 0);
+        weights.set(batch, 0);
     }
     Weights(const Weights&) = delete;
     Weights& operator=(const Weights&) = delete;
 
+    BlockWeights at(int x, int y, unsigned coverage) const
+    {
+        Float edge[3];
+        edges.at(x, y, edge);
+        return weights.of(edge, coverage);
+    }
+    Float depthAt(int x, int y) const
+    {
+        Float edge[3];
+        edges.at(x, y, edge);
+        return weights.depth(edge);
+    }
+    Float clipW(const BlockWeights& w) const { return weights.clipW(w); }
+
 private:
     Triangle triangle;
     TriangleBatch batch;
+    TriangleEdges edges;
+    TriangleWeights weights;
 };
 
 bool isClockwise(const Corners& c)
@@ -113,7 +131,7 @@ Errors measure(const Corners& c, const float (&z)[3], const float (&w)[3], const
     forEachBlock(c, pixels, [&](int x, int y, unsigned coverage) {
         const BlockWeights block = weights.at(x, y, coverage);
         const Float perspective = corners.perspective(0, block), affine = corners.affine(0, block);
-        const Float depth = weights.depth(block), clipW = weights.clipW(block);
+        const Float depth = weights.depthAt(x, y), clipW = weights.clipW(block);
         for (int lane = 0; lane < kLanes; ++lane) {
             errors.finite = errors.finite && std::isfinite(perspective[lane]) && std::isfinite(affine[lane]);
             if ((coverage >> lane & 1u) == 0) continue;
@@ -286,7 +304,7 @@ TEST_CASE("interpolate: a value that is equal at all corners comes out unchanged
         forEachBlock(c, {0, 0, 32, 32}, [&](int x, int y, unsigned coverage) {
             const BlockWeights block = weights.at(x, y, coverage);
             wrong += any(corners.perspective(0, block) != value) || any(corners.affine(0, block) != value);
-            wrong += any(weights.depth(block) != 0.3f);
+            wrong += any(weights.depthAt(x, y) != 0.3f);
         });
     }
     measured("values that changed", wrong, 0);

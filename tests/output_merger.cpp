@@ -164,7 +164,7 @@ TEST_CASE("output merger: depth comparisons")
     forEachCompare([&]<Compare compare>() {
         for (const float z : values) {
             for (const float stored : values)
-                wrong += compareDepth<compare>(z, stored)[0] != passes(compare, z, stored);
+                wrong += compareDepth(compare, z, stored)[0] != passes(compare, z, stored);
         }
     });
     CHECK(wrong == 0);
@@ -184,7 +184,7 @@ TEST_CASE("output merger: coarse depth bounds never hide a pixel that would pass
                 const float a = static_cast<float>(random.between(0, 16)) / 16,
                             b = static_cast<float>(random.between(0, 16)) / 16;
                 const float nearest = std::min(a, b), farthest = std::max(a, b);
-                const bool hide = isHidden<compare>(nearest, farthest, bounds);
+                const bool hide = isHidden(compare, nearest, farthest, bounds);
                 hidden += hide;
                 const bool whole = random.chance(2);
                 for (float& stored : depth) {
@@ -196,7 +196,7 @@ TEST_CASE("output merger: coarse depth bounds never hide a pixel that would pass
                     wrong += hide;
                     if (!hide) stored = z;
                 }
-                if (!hide) updateBounds<compare>(nearest, farthest, whole, bounds);
+                if (!hide) updateBounds(compare, nearest, farthest, whole, bounds);
                 for (const float stored : depth) wrong += stored < bounds.nearest || stored > bounds.farthest;
             }
         }
@@ -374,15 +374,15 @@ TEST_CASE("output merger: an opaque source hides what is below, a transparent on
             destination[c] = std::ldexp(d, random.between(-20, 20));
         }
         source.w = 1.0f;
-        const float4 opaque = blendColors<Blend::alpha>(source, destination);
+        const float4 opaque = blendColors(Blend::alpha, source, destination);
         for (int c = 0; c < 4; ++c) wrong += any(opaque[c] != source[c]);
         source.w = 0.0f;
-        const float4 clear = blendColors<Blend::alpha>(source, destination);
+        const float4 clear = blendColors(Blend::alpha, source, destination);
         for (int c = 0; c < 4; ++c) wrong += any(clear[c] != destination[c]);
         // By the formula s.a s + (1 - s.a) d, to the precision of the larger of the two.
         const float alpha = random.real(0, 1);
         source.w = alpha;
-        const float4 mixed = blendColors<Blend::alpha>(source, destination);
+        const float4 mixed = blendColors(Blend::alpha, source, destination);
         for (int c = 0; c < 4; ++c) {
             const double s = source[c][0], d = destination[c][0],
                          exact = alpha * s + (1 - static_cast<double>(alpha)) * d;
@@ -432,17 +432,20 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
     Random random(72);
     for (const Format format : {Format::rgba8, Format::rgba8Srgb, Format::rgba32f}) {
         Framebuffer target = makeTarget(16, 16, format);
-        Tile tile(16, format);
+        const TargetMemory memory(target);
+        Tile tile(16, target.attachments());
         int wrong = 0;
         for (int i = 0; i < trials(500); ++i) {
-            tile.clear(0, 0, glm::vec4(0.25f), 1.0f);
+            tile.begin(0, 0, memory, {glm::vec4(0.25f), 1.0f});
             const unsigned live = static_cast<unsigned>(random.next()) & kAllLanes;
-            mergeColor<Blend::off>(tile, 0, float4(Float(0.75f)), Mask::fromBits(live));
-            tile.store(target);
+            withFormat(format, [&]<Format f>() {
+                mergeColor<f>(Blend::off, tile.color(0), float4(Float(0.75f)), Mask::fromBits(live));
+            });
+            tile.store(memory);
             Framebuffer cleared = makeTarget(16, 16, format);
-            Tile clean(16, format);
-            clean.clear(0, 0, glm::vec4(0.25f), 1.0f);
-            clean.store(cleared);
+            Tile clean(16, cleared.attachments());
+            clean.begin(0, 0, TargetMemory(cleared), {glm::vec4(0.25f), 1.0f});
+            clean.store(TargetMemory(cleared));
             for (int y = 0; y < 16; ++y) {
                 for (int x = 0; x < 16; ++x) {
                     int lane = -1;

@@ -348,7 +348,8 @@ struct FrontEnd
     {
         draw.indices = indices.data();
         draw.primitiveCount = static_cast<std::uint32_t>(indices.size() / 3);
-        draw.vertexCount = static_cast<std::uint32_t>(clip.size());
+        draw.vertexCount = draw.verticesPerInstance = static_cast<std::uint32_t>(clip.size());
+        draw.primitivesPerInstance = draw.primitiveCount;
         draw.clip = clip.data();
         draw.screen = screen.data();
         draw.codes = codes.data();
@@ -417,17 +418,15 @@ inline std::uint64_t hashBytes(const void* data, std::size_t size, std::uint64_t
 
 inline std::uint64_t hashOf(const Framebuffer& target)
 {
-    std::uint64_t hash = hashBytes(target.color8().data(), target.color8().size_bytes());
-    hash = hashBytes(target.color32f().data(), target.color32f().size_bytes(), hash);
-    return hashBytes(target.depth().data(), target.depth().size_bytes(), hash);
+    std::uint64_t hash = hashBytes(nullptr, 0);
+    for (int i = 0; i < static_cast<int>(target.attachments().size()); ++i)
+        hash = hashBytes(target.words(i).data(), target.words(i).size_bytes(), hash);
+    return hash;
 }
 
 inline bool sameBits(const Framebuffer& a, const Framebuffer& b)
 {
-    const auto same = [](const auto& x, const auto& y) {
-        return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size_bytes()) == 0);
-    };
-    return same(a.color8(), b.color8()) && same(a.color32f(), b.color32f()) && same(a.depth(), b.depth());
+    return a.samePixels(b);
 }
 
 inline bool allFinite(const Framebuffer& target)

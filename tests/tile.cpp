@@ -2,9 +2,10 @@
 // tile that lies in the target, and nothing else in the target changes.
 #include "pipeline/tile.h"
 
+#include <bit>
+#include <cstring>
 #include <limits>
 
-#include "pipeline/output_merger.h"
 #include "pipeline_fixture.h"
 
 using namespace fixture;
@@ -15,13 +16,30 @@ void fillWithNumbers(Framebuffer& target)
 {
     std::uint32_t n = 1;
     for (std::uint32_t& c : target.color8()) c = 0x9e3779b9u * n++;
+    for (auto& c : target.color16f()) {
+        for (std::uint16_t& half : c) half = static_cast<std::uint16_t>(n++ * 7 & 0x7bff);
+    }
+    for (float& c : target.colorR32f()) c = static_cast<float>(n++);
     for (glm::vec4& c : target.color32f()) {
         for (int i = 0; i < 4; ++i) c[i] = static_cast<float>(n++);
     }
     for (float& z : target.depth()) z = 1.0f / static_cast<float>(n++);
 }
 
-const Format kFormats[] = {Format::rgba8, Format::rgba8Srgb, Format::rgba32f};
+const Format kFormats[] = {Format::rgba8, Format::rgba8Srgb, Format::rgba16f, Format::r32f, Format::rgba32f};
+// A depth that is not kept is cleared, one that is kept is loaded.
+std::optional<float> clearFor(Store depth, float value)
+{
+    return depth == Store::discard ? std::optional<float>(value) : std::nullopt;
+}
+
+std::uint32_t packed(const glm::vec4& color, Format format)
+{
+    std::int32_t words[4];
+    packColor(color, format, words);
+    return static_cast<std::uint32_t>(words[0]);
+}
+
 const int kTileSizes[] = {16, 32, 64, 128};
 
 }  // namespace
@@ -36,11 +54,12 @@ TEST_CASE("tile: load and store keep every bit (S-318, S-957)")
                     Framebuffer source = makeTarget(size[0], size[1], format, depth);
                     fillWithNumbers(source);
                     Framebuffer copy = makeTarget(size[0], size[1], format, depth);
-                    Tile tile(tileSize, format);
+                    Tile tile(tileSize, source.attachments());
+                    const TargetMemory from(source), to(copy);
                     for (int y = 0; y < size[1]; y += tileSize) {
                         for (int x = 0; x < size[0]; x += tileSize) {
-                            tile.load(x, y, source, 0.5f);
-                            tile.store(copy);
+                            tile.begin(x, y, from, {std::nullopt, clearFor(depth, 0.5f)});
+                            tile.store(to);
                         }
                     }
                     CHECK(sameBits(source, copy));
@@ -62,8 +81,8 @@ TEST_CASE("tile: store and clear write their own rectangle only (S-957)")
             for (int y = 0; y < 50; ++y) {
                 for (int x = 0; x < 50; ++x) {
                     const auto i = static_cast<std::size_t>(y * 50 + x);
-                    const bool same = format == Format::rgba32f ? target.color32f()[i] == before.color32f()[i]
-                                                                     : target.color8()[i] == before.color8()[i];
+                    const std::size_t words = static_cast<std::size_t>(wordsPerPixel(format));
+                    const bool same = std::memcmp(&target.words(0)[i * words], &before.words(0)[i * words], 4 * words) == 0;
                     const bool inside = x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
                     changed += !inside && (!same || target.depth()[i] != before.depth()[i]);
                     kept += inside && (same || target.depth()[i] == before.depth()[i]);
@@ -71,18 +90,18 @@ TEST_CASE("tile: store and clear write their own rectangle only (S-957)")
             }
             return changed + kept;
         };
-        Tile tile(16, format);
-        tile.clear(32, 16, color, 2.0f);
-        tile.store(target);
+        Tile tile(16, target.attachments());
+        tile.begin(32, 16, TargetMemory(target), {color, 2.0f});
+        tile.store(TargetMemory(target));
         CHECK(changedOutside({32, 16, 48, 32}) == 0);
 
         target = before;
-        tile.clear(48, 48, color, 2.0f);  // two pixels of it are in the target
-        tile.store(target);
+        tile.begin(48, 48, TargetMemory(target), {color, 2.0f});  // two pixels of it are in the target
+        tile.store(TargetMemory(target));
         CHECK(changedOutside({48, 48, 50, 50}) == 0);
 
         target = before;
-        clearRectangle(target, {45, -10, 61, 6}, color, 2.0f);
+        clearRectangle(TargetMemory(target), {45, -10, 61, 6}, {color, 2.0f});
         CHECK(changedOutside({45, 0, 50, 6}) == 0);
     }
 }
@@ -94,10 +113,10 @@ TEST_CASE("tile: a cleared tile and a cleared rectangle are the same, also for c
         for (const glm::vec4& color : {glm::vec4(0.1f, 0.5f, 0.9f, 0.3f), glm::vec4(-1.0f, 2.0f, 1e30f, -0.0f),
                                        glm::vec4(nan, infinity, -infinity, nan)}) {
             Framebuffer a = makeTarget(20, 20, format), b = makeTarget(20, 20, format), c = makeTarget(20, 20, format);
-            Tile tile(32, format);
-            tile.clear(0, 0, color, 1.0f);
-            tile.store(a);
-            clearRectangle(b, {0, 0, 32, 32}, color, 1.0f);
+            Tile tile(32, a.attachments());
+            tile.begin(0, 0, TargetMemory(a), {color, 1.0f});
+            tile.store(TargetMemory(a));
+            clearRectangle(TargetMemory(b), {0, 0, 32, 32}, {color, 1.0f});
             CHECK(sameBits(a, b));
             Frame frame(c, {1, 16});
             frame.clear(color);
@@ -107,19 +126,19 @@ TEST_CASE("tile: a cleared tile and a cleared rectangle are the same, also for c
             if (finite) CHECK(sameBits(a, c));
         }
     }
-    CHECK(packColor({0, 0, 0, 1}, Format::rgba8) == 0xff000000u);
-    CHECK(packColor({1, 0, 0, 0}, Format::rgba8) == 0x000000ffu);
-    CHECK(packColor({nan, infinity, -infinity, 2}, Format::rgba8) == 0xff00ff00u);
-    CHECK(packColor({0.5f, 0.5f, 0.5f, 0.5f}, Format::rgba8) == 0x80808080u);
-    CHECK(packColor({0.5f, 0.5f, 0.5f, 0.5f}, Format::rgba8Srgb) == 0x80bcbcbcu);  // alpha is linear
+    CHECK(packed({0, 0, 0, 1}, Format::rgba8) == 0xff000000u);
+    CHECK(packed({1, 0, 0, 0}, Format::rgba8) == 0x000000ffu);
+    CHECK(packed({nan, infinity, -infinity, 2}, Format::rgba8) == 0xff00ff00u);
+    CHECK(packed({0.5f, 0.5f, 0.5f, 0.5f}, Format::rgba8) == 0x80808080u);
+    CHECK(packed({0.5f, 0.5f, 0.5f, 0.5f}, Format::rgba8Srgb) == 0x80bcbcbcu);  // alpha is linear
 }
 
 TEST_CASE("tile: blocks hold the pixels that their lanes name")
 {
     Framebuffer target = makeTarget(64, 64, Format::rgba32f, Store::keep);
     fillWithNumbers(target);
-    Tile tile(32, Format::rgba32f);
-    tile.load(32, 0, target, 1.0f);
+    Tile tile(32, target.attachments());
+    tile.begin(32, 0, TargetMemory(target), {});
     int wrong = 0;
     for (int y = 0; y < 32; y += kBlockHeight) {
         for (int x = 32; x < 64; x += kBlockWidth) {
@@ -127,7 +146,7 @@ TEST_CASE("tile: blocks hold the pixels that their lanes name")
             float nearest = 2.0f, farthest = -1.0f;
             for (int lane = 0; lane < kLanes; ++lane) {
                 const auto i = static_cast<std::size_t>((y + laneY(lane)) * 64 + x + laneX(lane));
-                for (int c = 0; c < 4; ++c) wrong += tile.color32f(block)[c * kLanes + lane] != target.color32f()[i][c];
+                for (int c = 0; c < 4; ++c) wrong += std::bit_cast<float>(tile.color(block)[c * kLanes + lane]) != target.color32f()[i][c];
                 wrong += tile.depth(block)[lane] != target.depth()[i];
                 nearest = std::fmin(nearest, target.depth()[i]);
                 farthest = std::fmax(farthest, target.depth()[i]);
@@ -141,12 +160,12 @@ TEST_CASE("tile: blocks hold the pixels that their lanes name")
 TEST_CASE("tile: nothing of the tile before remains after clear and load")
 {
     Framebuffer target = makeTarget(40, 40, Format::rgba8, Store::discard);
-    Tile tile(32, Format::rgba8);
-    tile.clear(0, 0, glm::vec4(1.0f), 0.25f);
-    tile.load(32, 32, target, 0.75f);
+    Tile tile(32, target.attachments());
+    tile.begin(0, 0, TargetMemory(target), {glm::vec4(1.0f), 0.25f});
+    tile.begin(32, 32, TargetMemory(target), {std::nullopt, 0.75f});
     for (int block = 0; block < 32 * 32 / kLanes; ++block) {
         for (int lane = 0; lane < kLanes; ++lane) {
-            REQUIRE(tile.color8(block)[lane] == 0);
+            REQUIRE(tile.color(block)[lane] == 0);
             REQUIRE(tile.depth(block)[lane] == 0.75f);
         }
         REQUIRE(tile.bounds(block).nearest == 0.75f);

@@ -43,6 +43,9 @@ inline constexpr std::uint32_t kTrianglesPerChunk = 4096;
 inline constexpr std::uint32_t kMaxBinned = 1u << 22;
 inline constexpr std::uint32_t kPrimitivesPerCount = 256;
 
+// Threads that a frame runs on.
+inline constexpr int kMaxThreads = 256;
+
 // The interpolated components (floats) of one vertex: D3D's 32 registers of four.
 inline constexpr int kMaxComponents = 128;
 

@@ -183,7 +183,7 @@ constexpr bool checkInterpolators()
     using Fields = FieldsOf<Interpolators>;
     constexpr bool hasOnePosition = positionCount(Fields{}) == 1;
     constexpr bool isFewEnough = interpolatedComponents(Fields{}) <= kMaxComponents;
-    constexpr bool namesOnce = !namesTwice(Fields{});
+    constexpr bool namesOnce = !hasOnePosition || !namesTwice(Fields{});
     constexpr bool integersFlat = integersAreFlat(Fields{});
     static_assert(hasOnePosition,
                   "Interpolators must have exactly one SV_POSITION: the vertex program's clip-space position");

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "lanes/environment.h"
+#include "pipeline/limits.h"
 
 #if !defined(RELIEF_NO_THREADS)
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #endif
 
@@ -48,6 +50,22 @@ bool spinUntil(const Condition& condition)
         if (i % 16 == 15) std::this_thread::yield();
     }
     return false;
+}
+
+// A thread more; false where the system has no more of them. The ones that are there do the work.
+template <class Function>
+bool startThread(std::vector<std::thread>& threads, const Function& function)
+{
+#if defined(__cpp_exceptions)
+    try {
+        threads.emplace_back(function);
+    } catch (const std::system_error&) {
+        return false;
+    }
+#else
+    threads.emplace_back(function);
+#endif
+    return true;
 }
 
 }  // namespace
@@ -141,9 +159,10 @@ struct Workers::Pool
 Workers::Workers(int threads) : pool(std::make_unique<Pool>())
 {
     if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    threads = std::min(threads, kMaxThreads);
     pool->shares = std::vector<Pool::Share>(static_cast<std::size_t>(threads));
     for (int worker = 1; worker < threads; ++worker) {
-        pool->threads.emplace_back([p = pool.get(), worker] { p->loop(worker); });
+        if (!startThread(pool->threads, [p = pool.get(), worker] { p->loop(worker); })) break;
     }
 }
 

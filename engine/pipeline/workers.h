@@ -16,7 +16,8 @@ public:
         const void* context;
     };
 
-    // `threads` includes the calling thread; 0 means one per processor.
+    // `threads` includes the calling thread; 0 means one per processor, and at most
+    // kMaxThreads (limits.h), or as many as the system gives, are started.
     explicit Workers(int threads = 0);
     ~Workers();
     Workers(Workers&&) noexcept;

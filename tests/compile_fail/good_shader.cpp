@@ -20,7 +20,7 @@ struct Interpolators
 
 struct MyVertexProgram
 {
-    Interpolators operator()(VertexData v) const { return {v.position, v.uv, v.normal}; }
+    Interpolators operator()(VertexData v) const noexcept { return {v.position, v.uv, v.normal}; }
 };
 
 struct MyFragmentProgram

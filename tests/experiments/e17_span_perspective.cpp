@@ -152,10 +152,14 @@ struct EngineRow
     {
         const Triangle* const only = &triangle;
         batch.set({&only, 1}, {0, 0, kPixels, kPixels});
+        TriangleEdges edges;
         TriangleWeights weights;
+        edges.set(batch, 0);
         weights.set(batch, 0);
         for (int x = 0; x < kPixels; x += kBlockWidth) {
-            const BlockWeights w = weights.at(x, 0, kAllLanes);
+            Float edge[3];
+            edges.at(x, 0, edge);
+            const BlockWeights w = weights.of(edge, kAllLanes);
             corners.perspective(0, w).store(&u[static_cast<std::size_t>(x * kBlockHeight)]);
             corners.perspective(1, w).store(&v[static_cast<std::size_t>(x * kBlockHeight)]);
         }

@@ -58,6 +58,7 @@ struct Uv
 struct FromEdges
 {
     TriangleBatch batch;
+    TriangleEdges edges;
     TriangleWeights weights;
     CornerComponents<2> components;
 
@@ -67,12 +68,15 @@ struct FromEdges
     }
     void begin(int lane, const Corners& c)
     {
+        edges.set(batch, lane);
         weights.set(batch, lane);
         components.set(c.uv[0], c.uv[1], c.uv[2]);
     }
     Uv at(int x, int y) const
     {
-        const BlockWeights w = weights.at(x, y, kAllLanes);
+        Float edge[3];
+        edges.at(x, y, edge);
+        const BlockWeights w = weights.of(edge, kAllLanes);
         return {components.perspective(0, w), components.perspective(1, w)};
     }
 };

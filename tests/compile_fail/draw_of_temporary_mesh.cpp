@@ -1,4 +1,4 @@
-// Mistake: VertexData asks for a colour, which no mesh has.
+// Mistake: a mesh that is gone when the frame runs.
 #include "hlsl/intrinsics.h"
 #include "pipeline/frame.h"
 
@@ -9,7 +9,6 @@ struct VertexData
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
-    COLOR<0, float4> color;
 };
 
 struct Interpolators
@@ -29,7 +28,7 @@ struct MyFragmentProgram
     float4 operator()(Interpolators i) const { return float4(i.normal * 0.5f + 0.5f, 1.0f); }
 };
 
-void draw(Frame& frame, const Mesh& mesh)
+void draw(Frame& frame)
 {
-    frame.draw(mesh, MyVertexProgram{}, MyFragmentProgram{});
+    frame.draw(Mesh{}, MyVertexProgram{}, MyFragmentProgram{});
 }

@@ -1,0 +1,38 @@
+// Mistake: Interpolators with a base class.
+#include "hlsl/intrinsics.h"
+#include "pipeline/frame.h"
+
+using namespace relief;
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+    TEXCOORD<0, float2> uv;
+};
+
+struct Position
+{
+    SV_POSITION position;
+};
+
+struct Interpolators : Position
+{
+    TEXCOORD<0, float2> uv;
+    noperspective<TEXCOORD<1, float3>> normal;
+};
+
+struct MyVertexProgram
+{
+    Interpolators operator()(VertexData v) const { return {{v.position}, v.uv, v.normal}; }
+};
+
+struct MyFragmentProgram
+{
+    float4 operator()(Interpolators i) const { return float4(i.normal * 0.5f + 0.5f, 1.0f); }
+};
+
+void draw(Frame& frame, const Mesh& mesh)
+{
+    frame.draw(mesh, MyVertexProgram{}, MyFragmentProgram{});
+}

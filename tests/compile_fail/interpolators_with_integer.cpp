@@ -1,0 +1,34 @@
+// Mistake: an integer that would be interpolated.
+#include "hlsl/intrinsics.h"
+#include "pipeline/frame.h"
+
+using namespace relief;
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+    TEXCOORD<0, float2> uv;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, Int> uv;
+    noperspective<TEXCOORD<1, float3>> normal;
+};
+
+struct MyVertexProgram
+{
+    Interpolators operator()(VertexData v) const { return {v.position, Int(1), v.normal}; }
+};
+
+struct MyFragmentProgram
+{
+    float4 operator()(Interpolators i) const { return float4(i.normal * 0.5f + 0.5f, 1.0f); }
+};
+
+void draw(Frame& frame, const Mesh& mesh)
+{
+    frame.draw(mesh, MyVertexProgram{}, MyFragmentProgram{});
+}

@@ -1,0 +1,35 @@
+// Mistake: a generic lambda: it does not say which VertexData it takes.
+#include "hlsl/intrinsics.h"
+#include "pipeline/frame.h"
+
+using namespace relief;
+
+struct VertexData
+{
+    POSITION position;
+    NORMAL normal;
+    TEXCOORD<0, float2> uv;
+};
+
+struct Interpolators
+{
+    SV_POSITION position;
+    TEXCOORD<0, float2> uv;
+    noperspective<TEXCOORD<1, float3>> normal;
+};
+
+struct MyVertexProgram
+{
+    Interpolators operator()(VertexData v) const { return {v.position, v.uv, v.normal}; }
+};
+
+struct MyFragmentProgram
+{
+    float4 operator()(Interpolators i) const { return float4(i.normal * 0.5f + 0.5f, 1.0f); }
+};
+
+void draw(Frame& frame, const Mesh& mesh)
+{
+    const auto vertexProgram = [](auto v) { return Interpolators{v.position, v.uv, v.normal}; };
+    frame.draw(mesh, vertexProgram, MyFragmentProgram{});
+}
