@@ -118,3 +118,26 @@ TEST_CASE("full palette: files with a full one or with none stay as they are")
     const std::string whole = bmp(12, 1, 2, std::string(6, '\0'), {0, 0, 0, 0});
     for (std::size_t length = 0; length < 32; ++length) CHECK(unchanged(whole.substr(0, length)));
 }
+
+TEST_CASE("full palette: no random damage makes it read or write beyond the file")
+{
+    std::uint32_t state = 9;
+    const auto next = [&](std::size_t limit) {
+        state = state * 1664525u + 1013904223u;
+        return static_cast<std::size_t>(state >> 8) % limit;
+    };
+    const TemporaryFolder folder;
+    int read = 0;
+    for (int round = 0; round < 500; ++round) {
+        for (std::string bytes : {png({1, 2, 3}, kIndices), bmp(12, 8, 4, {1, 2, 3}, kIndices),
+                                  bmp(40, 4, 2, std::string(8, '\x22'), {'\xf1', 0, 0, 0})}) {
+            for (std::size_t damages = 1 + next(3); damages > 0; --damages) {
+                bytes[next(bytes.size())] = static_cast<char>(next(256));
+            }
+            bytes.resize(bytes.size() - next(8) / 7 * next(bytes.size()));
+            if (readImage(folder.write("damaged", bytes))) ++read;
+        }
+    }
+    CHECK(read > 0);
+    CHECK(read < 1500);
+}
