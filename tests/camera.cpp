@@ -27,7 +27,7 @@ float offBy(const glm::mat4& m, const glm::vec3& point, const glm::vec3& expecte
 
 }  // namespace
 
-TEST_CASE("camera: lookAt puts the camera at the origin and its target on +z; right is +x, up is +y")
+TEST_CASE("camera: lookAt puts the camera at the origin and its target on +z, right is +x, up is +y")
 {
     const glm::vec3 position(3, 2, -5), target(3, 2, 7);
     CHECK(offBy(lookAt(position, target), position, {0, 0, 0}) == 0.0f);
@@ -79,7 +79,7 @@ TEST_CASE("camera: orthographic has a box's corners at -1 and 1")
     CHECK((m * glm::vec4(1, 2, 3, 1)).w == 1.0f);
 }
 
-TEST_CASE("camera: rotations take y to z, z to x and x to y; translations and scalings")
+TEST_CASE("camera: rotations take y to z, z to x and x to y, translations and scalings")
 {
     const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     CHECK(offBy(rotationX(90), y, z) < 1e-7f);

@@ -165,7 +165,7 @@ TEST_CASE("derivatives: coarse ones of a vector are those of its components")
     CHECK(all(ddy_coarse(v).y == ddy_coarse(b)));
 }
 
-TEST_CASE("derivatives: fwidth is the sum of both changes; the fine forms are the default")
+TEST_CASE("derivatives: fwidth is the sum of both changes, the fine forms are the default")
 {
     const Float f = 3.0f * xs() - 5.0f * ys();
     CHECK(all(fwidth(f) == 8.0f));

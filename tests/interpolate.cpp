@@ -40,15 +40,12 @@ public:
 
     BlockWeights at(int x, int y, unsigned coverage) const
     {
-        Float edge[3];
-        edges.at(x, y, edge);
+        const Float edge[3] = {edges.at(0, x, y), edges.at(1, x, y), edges.at(2, x, y)};
         return weights.of(edge, coverage);
     }
     Float depthAt(int x, int y) const
     {
-        Float edge[3];
-        edges.at(x, y, edge);
-        return weights.depth(edge);
+        return weights.depth(edges.at(1, x, y), edges.at(2, x, y));
     }
     Float clipW(const BlockWeights& w) const { return weights.clipW(w); }
 

@@ -2,6 +2,7 @@
 #include "hlsl/intrinsics.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <initializer_list>
 
@@ -225,6 +226,36 @@ TEST_CASE("fmod: of x's sign, below |y|, and what the division has in common wit
             REQUIRE(std::min(off, std::abs(double{y[i]}) - off) <= 0x1p-24 * std::abs(double{x[i]}));
         }
     }
+}
+
+TEST_CASE("frexp: as the standard library's")
+{
+    for (const float x : kFloats) {
+        CAPTURE(x);
+        int expected = 0;
+        const float mantissa = std::frexp(x, &expected);
+        Float exponent = 0.0f;
+        CHECK(same(frexp(Float(x), exponent)[0], mantissa));
+        CHECK(exponent[kLanes - 1] == (std::isfinite(x) ? static_cast<float>(expected) : 0.0f));
+    }
+}
+
+TEST_CASE("countbits, reversebits, firstbitlow and firstbithigh")
+{
+    RandomBits random;
+    for (int n = 0; n < 1000; ++n) {
+        const std::uint32_t bits = random() >> (n % 32);
+        const auto x = static_cast<std::int32_t>(bits);
+        std::uint32_t reversed = 0;
+        for (int i = 0; i < 32; ++i) reversed |= (bits >> i & 1u) << (31 - i);
+        REQUIRE(countbits(Int(x))[0] == std::popcount(bits));
+        REQUIRE(reversebits(Int(x))[0] == static_cast<std::int32_t>(reversed));
+        REQUIRE(firstbitlow(Int(x))[0] == (bits == 0 ? -1 : std::countr_zero(bits)));
+        REQUIRE(firstbithigh(Int(x))[0] == 31 - std::countl_zero(x < 0 ? ~bits : bits));
+    }
+    CHECK(firstbitlow(Int(0))[0] == -1);
+    CHECK(firstbithigh(Int(-1))[0] == -1);
+    CHECK(all(countbits(int2(3, -1)).y == 32));
 }
 
 TEST_CASE("select: between plain numbers, and by a mask for each component")

@@ -574,7 +574,7 @@ TEST_CASE("log and log10: relative errors below 2.7e-7 and 3.1e-7")
     CHECK(same(log10(Float(kInfinity))[0], kInfinity));
 }
 
-TEST_CASE("sinh, cosh and tanh: relative errors below 2e-7, 1.6e-7 and 2e-7; odd, even, odd")
+TEST_CASE("sinh, cosh and tanh: relative errors below 2e-7, 1.6e-7 and 2e-7, odd, even, odd")
 {
     const auto ofSinh = [](Float x) { return sinh(x); };
     const auto ofCosh = [](Float x) { return cosh(x); };

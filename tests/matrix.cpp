@@ -68,7 +68,7 @@ TEST_CASE("matrix: mul(m, v) and m * v have the same bits: sums from left to rig
     }
 }
 
-TEST_CASE("matrix: a product of two is one after the other; a number scales")
+TEST_CASE("matrix: a product of two is one after the other, a number scales")
 {
     const float3x3 a = broadcast(glm::mat3(1, 2, 3, 4, 5, 6, 7, 8, 9)),
                    b = broadcast(glm::mat3(0, 1, 0, 0, 0, 1, 1, 0, 0));

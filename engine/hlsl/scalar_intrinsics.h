@@ -2,6 +2,8 @@
 // vector_intrinsics.h applies to each component.
 #pragma once
 
+#include <initializer_list>
+
 #include "lanes/math.h"
 
 namespace relief {
@@ -82,6 +84,46 @@ inline Float ldexp(Float x, Float exponent)
 {
     return x * exp2(exponent);
 }
+// x = result * 2^exponent with the result in [0.5, 1); zeros, infinities and NaN come back with the exponent 0.
+inline Float frexp(Float x, Float& exponent)
+{
+    const Mask tiny = abs(x) < 1.17549435e-38f, ordinary = (x != 0.0f) & isfinite(x);
+    const Int bits = asInt(select(tiny, x * 16777216.0f, x));
+    const Int biased = (bits >> 23) & 255;
+    exponent = select(ordinary, Float(biased - 126) - select(tiny, Float(24.0f), Float(0.0f)), Float(0.0f));
+    return select(ordinary, asFloat((bits & Int(-0x7f800001)) | 0x3f000000), x);
+}
+
+// --- bits of integers ---
+
+// How many are set.
+inline Int countbits(Int x)
+{
+    x = x - (shiftRightLogical(x, 1) & 0x55555555);
+    x = (x & 0x33333333) + (shiftRightLogical(x, 2) & 0x33333333);
+    x = (x + shiftRightLogical(x, 4)) & 0x0f0f0f0f;
+    return shiftRightLogical(x * 0x01010101, 24);
+}
+inline Int reversebits(Int x)
+{
+    x = ((x & 0x55555555) << 1) | (shiftRightLogical(x, 1) & 0x55555555);
+    x = ((x & 0x33333333) << 2) | (shiftRightLogical(x, 2) & 0x33333333);
+    x = ((x & 0x0f0f0f0f) << 4) | (shiftRightLogical(x, 4) & 0x0f0f0f0f);
+    x = ((x & 0x00ff00ff) << 8) | (shiftRightLogical(x, 8) & 0x00ff00ff);
+    return (x << 16) | shiftRightLogical(x, 16);
+}
+// The lowest set bit; the highest that differs from the sign. -1 where there is none.
+inline Int firstbitlow(Int x)
+{
+    return select(x == 0, Int(-1), countbits((x & -x) - 1));
+}
+inline Int firstbithigh(Int x)
+{
+    x = x ^ (x >> 31);
+    for (const int bits : {1, 2, 4, 8, 16}) x = x | shiftRightLogical(x, bits);
+    return countbits(x) - 1;
+}
+
 inline Int abs(Int x)
 {
     return max(x, -x);

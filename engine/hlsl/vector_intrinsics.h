@@ -206,6 +206,10 @@ struct VectorIntrinsics<Int, n>
 
     RELIEF_OF_EACH(V, abs)
     RELIEF_OF_EACH(V, sign)
+    RELIEF_OF_EACH(V, countbits)
+    RELIEF_OF_EACH(V, reversebits)
+    RELIEF_OF_EACH(V, firstbitlow)
+    RELIEF_OF_EACH(V, firstbithigh)
     friend LaneVector<Float, n> asfloat(const V& v)
     {
         return each<LaneVector<Float, n>>([](Int x) { return asfloat(x); }, v);

@@ -1,7 +1,8 @@
 // The operations on compiler vectors that everything above this folder is written with. What compilers turn into one
-// instruction for every instruction set and width stands here, once: + - * / and comparisons, minimum and maximum,
-// conversions, shuffles. What they do not (square root, rounding, masks, doubles, moving a quad) has a file per
-// instruction set. Each function gives the same bits in all of them: that is what tests/lanes.cpp checks.
+// instruction for every instruction set and width stands here, once: + - * / and comparisons, conversions, shuffles.
+// What they do not (minimum and maximum, square root, rounding, masks, doubles, moving a quad) has a file per
+// instruction set. (g++ 12 makes one instruction of a < b ? a : b alone, but two of it among others.) Each function
+// gives the same bits in all of them: that is what tests/lanes.cpp checks.
 //
 // This folder is the only place in the engine that knows an instruction set by name.
 #pragma once
@@ -69,36 +70,6 @@ inline MaskVector maskFromBits(unsigned bits)
 }
 #endif
 
-// The second operand where one of the two is NaN.
-inline FloatVector min(FloatVector a, FloatVector b)
-{
-    return a < b ? a : b;
-}
-inline FloatVector max(FloatVector a, FloatVector b)
-{
-    return a > b ? a : b;
-}
-inline IntVector min(IntVector a, IntVector b)
-{
-    return a < b ? a : b;
-}
-inline IntVector max(IntVector a, IntVector b)
-{
-    return a > b ? a : b;
-}
-
-// The larger of two numbers that are not negative, NaN where one of them is NaN. In the order of their bits NaN is the
-// largest; where no instruction compares unsigned integers, all bits are set if the first is NaN.
-inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
-{
-    if constexpr (kLanes > 4) {
-        const UintVector u = (UintVector)a, v = (UintVector)b;
-        return (FloatVector)(u > v ? u : v);
-    } else {
-        return (FloatVector)((IntVector)max(a, b) | (IntVector)(a != a));
-    }
-}
-
 inline FloatVector toFloat(IntVector a)
 {
     return __builtin_convertvector(a, FloatVector);
@@ -158,9 +129,9 @@ inline QuadVector loadQuad(const std::byte* address)
 
 }  // namespace relief::native
 
-// Each of these files has: select; signBits, maskBits; sqrt, floor, roundToInt; lowToDouble, highToDouble, toFloat,
-// negativeBits; insertQuad, storeQuads, loadTwoHalves; multiplyAddHalves. NEON and wasm's vectors (4 lanes) are to
-// stand here, before the portable one, as native_neon.h and native_wasm.h.
+// Each of these files has: select; min, max, maxOrNaN; signBits, maskBits; sqrt, floor, roundToInt; lowToDouble,
+// highToDouble, toFloat, negativeBits; insertQuad, storeQuads, loadTwoHalves; multiplyAddHalves. NEON and wasm's
+// vectors (4 lanes) are to stand here, before the portable one, as native_neon.h and native_wasm.h.
 #if RELIEF_LANES == 16
 #include "lanes/native_avx512.h"
 #elif RELIEF_LANES == 8

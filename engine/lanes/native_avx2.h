@@ -24,6 +24,29 @@ inline unsigned maskBits(MaskVector a)
     return signBits(a);
 }
 
+// The second operand where one of the two is NaN.
+inline FloatVector min(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm256_min_ps((__m256)a, (__m256)b);
+}
+inline FloatVector max(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm256_max_ps((__m256)a, (__m256)b);
+}
+// The larger of two numbers that are not negative, NaN where one of them is NaN: in the order of their bits NaN is the
+// largest.
+inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm256_max_epu32((__m256i)a, (__m256i)b);
+}
+inline IntVector min(IntVector a, IntVector b)
+{
+    return (IntVector)_mm256_min_epi32((__m256i)a, (__m256i)b);
+}
+inline IntVector max(IntVector a, IntVector b)
+{
+    return (IntVector)_mm256_max_epi32((__m256i)a, (__m256i)b);
+}
 inline FloatVector sqrt(FloatVector a)
 {
     return (FloatVector)_mm256_sqrt_ps((__m256)a);

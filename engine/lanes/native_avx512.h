@@ -71,6 +71,29 @@ inline unsigned signBits(IntVector a)
     return _mm512_movepi32_mask((__m512i)a);
 }
 
+// The second operand where one of the two is NaN.
+inline FloatVector min(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm512_min_ps((__m512)a, (__m512)b);
+}
+inline FloatVector max(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm512_max_ps((__m512)a, (__m512)b);
+}
+// The larger of two numbers that are not negative, NaN where one of them is NaN: in the order of their bits NaN is the
+// largest.
+inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm512_max_epu32((__m512i)a, (__m512i)b);
+}
+inline IntVector min(IntVector a, IntVector b)
+{
+    return (IntVector)_mm512_min_epi32((__m512i)a, (__m512i)b);
+}
+inline IntVector max(IntVector a, IntVector b)
+{
+    return (IntVector)_mm512_max_epi32((__m512i)a, (__m512i)b);
+}
 inline FloatVector sqrt(FloatVector a)
 {
     return (FloatVector)_mm512_sqrt_ps((__m512)a);

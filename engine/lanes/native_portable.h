@@ -27,6 +27,28 @@ inline unsigned maskBits(MaskVector a)
     return signBits(a);
 }
 
+// The second operand where one of the two is NaN.
+inline FloatVector min(FloatVector a, FloatVector b)
+{
+    return select(less(a, b), a, b);
+}
+inline FloatVector max(FloatVector a, FloatVector b)
+{
+    return select(less(b, a), a, b);
+}
+// The larger of two numbers that are not negative, NaN where one of them is NaN.
+inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
+{
+    return select(equal(a, a), max(a, b), a);
+}
+inline IntVector min(IntVector a, IntVector b)
+{
+    return select(less(a, b), a, b);
+}
+inline IntVector max(IntVector a, IntVector b)
+{
+    return select(less(b, a), a, b);
+}
 inline FloatVector sqrt(FloatVector a)
 {
     for (int i = 0; i < kLanes; ++i) a[i] = std::sqrt(a[i]);

@@ -26,6 +26,28 @@ inline unsigned maskBits(MaskVector a)
     return signBits(a);
 }
 
+// The second operand where one of the two is NaN.
+inline FloatVector min(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm_min_ps((__m128)a, (__m128)b);
+}
+inline FloatVector max(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm_max_ps((__m128)a, (__m128)b);
+}
+// The larger of two numbers that are not negative, NaN where one of them is NaN.
+inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
+{
+    return (FloatVector)_mm_or_ps((__m128)max(a, b), _mm_cmpunord_ps((__m128)a, (__m128)b));
+}
+inline IntVector min(IntVector a, IntVector b)
+{
+    return select(less(a, b), a, b);
+}
+inline IntVector max(IntVector a, IntVector b)
+{
+    return select(less(b, a), a, b);
+}
 inline FloatVector sqrt(FloatVector a)
 {
     return (FloatVector)_mm_sqrt_ps((__m128)a);

@@ -42,13 +42,14 @@ struct BlockState
 {
     Compare depthTest;
     Blend blend;
-    bool usesDepth, depthWrite, discards;
+    bool usesDepth, depthWrite, readsEdges, discards;
 
     BlockState(const Draw& draw, const Tile& tile)
         : depthTest(tile.hasDepth() ? draw.state.depthTest : Compare::always),
           blend(draw.state.blend),
           usesDepth(tile.hasDepth() && (depthTest != Compare::always || draw.state.depthWrite)),
           depthWrite(tile.hasDepth() && draw.state.depthWrite),
+          readsEdges(draw.programs->components > 0),
           discards(draw.programs->discards)
     {
     }
@@ -68,24 +69,28 @@ void writeDepth(const BlockState& state, const TriangleWeights& triangle, const 
 // throw them away afterwards. Returns whether there is anything to shade.
 bool testEarly(const BlockState& state, const TriangleInTile& triangle, ShadedBlock& block, Tile& tile, Counts& counts)
 {
+    const TriangleWeights& weights = triangle.weights;
     block.live = block.coverage;
     if (leavesOut::hidden && state.usesDepth &&
-        isHidden(state.depthTest, triangle.weights.nearest, triangle.weights.farthest, tile.bounds(block.index))) {
+        isHidden(state.depthTest, weights.nearest, weights.farthest, tile.bounds(block.index))) {
         counts.hidden += static_cast<unsigned>(countBits(block.coverage));
         return false;
     }
-    Float edge[3];
-    triangle.edges.at(block.x, block.y, edge);
-    edge[0].store(block.edge[0]);
-    edge[1].store(block.edge[1]);
-    edge[2].store(block.edge[2]);
-    if (state.usesDepth) {
-        const Float depth = triangle.weights.depth(edge), old = Float::load(tile.depth(block.index));
-        const Mask live = Mask::fromBits(block.coverage) & compareDepth(state.depthTest, depth, old);
-        block.live = live.bits();
-        if (!state.discards) writeDepth(state, triangle.weights, block, live, depth, old, tile);
-        counts.hidden += static_cast<unsigned>(countBits(block.coverage) - countBits(block.live));
-        if (leavesOut::hidden && block.live == 0) return false;
+    if (state.usesDepth || state.readsEdges) {
+        const Float edge1 = triangle.edges.at(1, block.x, block.y), edge2 = triangle.edges.at(2, block.x, block.y);
+        if (state.usesDepth) {
+            const Float depth = weights.depth(edge1, edge2), old = Float::load(tile.depth(block.index));
+            const Mask live = Mask::fromBits(block.coverage) & compareDepth(state.depthTest, depth, old);
+            block.live = live.bits();
+            if (!state.discards) writeDepth(state, weights, block, live, depth, old, tile);
+            counts.hidden += static_cast<unsigned>(countBits(block.coverage) - countBits(block.live));
+            if (leavesOut::hidden && block.live == 0) return false;
+        }
+        if (state.readsEdges) {
+            triangle.edges.at(0, block.x, block.y).store(block.edge[0]);
+            edge1.store(block.edge[1]);
+            edge2.store(block.edge[2]);
+        }
     }
     block.quads = wholeQuads(leavesOut::hidden ? block.live : block.coverage);
     counts.blocks += 1;
@@ -95,12 +100,12 @@ bool testEarly(const BlockState& state, const TriangleInTile& triangle, ShadedBl
 }
 
 // What a discarding program has left of a block: its depth is written now.
-void testLate(const BlockState& state, const TriangleWeights& triangle, ShadedBlock& block, Tile& tile)
+void testLate(const BlockState& state, const TriangleInTile& triangle, ShadedBlock& block, Tile& tile)
 {
     block.live &= ~block.discarded;
     if (!state.usesDepth) return;
-    const Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
-    writeDepth(state, triangle, block, Mask::fromBits(block.live), triangle.depth(edge),
+    const Float edge1 = triangle.edges.at(1, block.x, block.y), edge2 = triangle.edges.at(2, block.x, block.y);
+    writeDepth(state, triangle.weights, block, Mask::fromBits(block.live), triangle.weights.depth(edge1, edge2),
                Float::load(tile.depth(block.index)), tile);
 }
 
@@ -118,7 +123,7 @@ void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, C
 
 }  // namespace
 
-void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
+[[gnu::flatten]] void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
                  const TriangleChunk& chunk, Tile& tile, Statistics& statistics)
 {
     const BlockState state(draw, tile);
@@ -149,7 +154,7 @@ void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const T
         if (!runsProgram || count == 0) continue;
         const std::span<ShadedBlock> shaded(group.data(), count);
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), shaded, batch, corners.data());
-        if (state.discards) testLate(state, triangle.weights, group[0], tile);
+        if (state.discards) testLate(state, triangle, group[0], tile);
         if (!tile.hasColor()) continue;
         withFormat(tile.colorFormat(), [&]<Format format>() { mergeBlocks<format>(shaded, state.blend, tile, counts); });
     }

@@ -64,9 +64,7 @@ float shadeSample(const Draw& draw, const Sample& sample, std::uint64_t times)
     block.triangle = 0;
     block.coverage = sample.block.coverage;
     block.quads = wholeQuads(block.coverage);
-    Float edge[3];
-    edges.at(block.x, block.y, edge);
-    for (int k = 0; k < 3; ++k) edge[k].store(block.edge[k]);
+    for (int k = 0; k < 3; ++k) edges.at(k, block.x, block.y).store(block.edge[k]);
     std::array<ShadedBlock, 16> group;
     group.fill(block);
     float sum = 0.0f;

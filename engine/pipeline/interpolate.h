@@ -43,18 +43,14 @@ public:
     }
 
     // Of the block whose upper left pixel is (x, y).
-    void at(int x, int y, Float (&edge)[3]) const
+    Float at(int k, int x, int y) const
     {
         if (small) {
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t steps = static_cast<std::uint32_t>(stepX[k]) * static_cast<std::uint32_t>(x) +
-                                            static_cast<std::uint32_t>(stepY[k]) * static_cast<std::uint32_t>(y);
-                edge[k] = Float(smallLanes[k] + static_cast<std::int32_t>(steps));
-            }
-        } else {
-            for (int k = 0; k < 3; ++k)
-                edge[k] = toFloat(largeLanes[k] + Double(largeStepX[k] * x + largeStepY[k] * y));
+            const std::uint32_t steps = static_cast<std::uint32_t>(stepX[k]) * static_cast<std::uint32_t>(x) +
+                                        static_cast<std::uint32_t>(stepY[k]) * static_cast<std::uint32_t>(y);
+            return Float(smallLanes[k] + static_cast<std::int32_t>(steps));
         }
+        return toFloat(largeLanes[k] + Double(largeStepX[k] * x + largeStepY[k] * y));
     }
 
 private:
@@ -119,18 +115,18 @@ public:
     }
 
     // Depth is linear on screen.
-    Float depthPlane(const Float (&edge)[3]) const
+    Float depthPlane(Float edge1, Float edge2) const
     {
-        return z0 + edge[1] * inverseArea * dz1 + edge[2] * inverseArea * dz2;
+        return z0 + edge1 * inverseArea * dz1 + edge2 * inverseArea * dz2;
     }
     // What is tested and stored is never outside 0 ... 1 and the corners' range, so that coarse depth bounds are safe.
-    Float depth(const Float (&edge)[3]) const { return clamp(depthPlane(edge), nearest, farthest); }
+    Float depth(Float edge1, Float edge2) const { return clamp(depthPlane(edge1, edge2), nearest, farthest); }
 
     // SV_POSITION.z: the depth that is stored, where the triangle covers the pixel; beyond it the plane goes on, and
     // with it the difference between the neighbours.
     Float positionZ(const Float (&edge)[3], unsigned covered) const
     {
-        const Float plane = depthPlane(edge), stored = clamp(plane, nearest, farthest);
+        const Float plane = depthPlane(edge[1], edge[2]), stored = clamp(plane, nearest, farthest);
         return covered == kAllLanes ? stored : select(Mask::fromBits(covered), stored, plane);
     }
 
@@ -160,6 +156,7 @@ T broadcastBits(float word)
 template <int components>
 struct CornerComponents
 {
+    static constexpr int kCount = components;
     Broadcast first[components + 1], toSecond[components + 1], toThird[components + 1];  // + 1: there may be none
 
     void set(const float* a, const float* b, const float* c)

@@ -37,7 +37,7 @@ struct VertexLanes
 // at a time: g++ 12 would copy a struct of them in smaller pieces, which the next load of a whole vector has to wait for.
 struct ShadedBlock
 {
-    alignas(Float) float edge[3][kLanes];   // the edge functions at its pixels
+    alignas(Float) float edge[3][kLanes];   // the edge functions at its pixels, if there is anything to interpolate
     alignas(Float) float color[4][kLanes];  // what the program gives
     unsigned discarded;                     // what it throws away, a bit per lane
     unsigned live;                          // pixels whose result counts
@@ -102,11 +102,16 @@ template <class VertexData, class Interpolators, class VertexProgram>
 
 template <class Interpolators, class FragmentProgram, int components>
 void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle,
-                const CornerComponents<components>& corners, ShadedBlock& block)
+                const TriangleEdges& edges, const CornerComponents<components>& corners, ShadedBlock& block)
 {
+    // Where nothing is interpolated, SV_POSITION alone may want to know them: the compiler sees whether it does.
+    const auto edgeOf = [&](int k) {
+        if constexpr (components == 0) return edges.at(k, block.x, block.y);
+        return Float::load(block.edge[k]);
+    };
     shading.activeLanes = block.quads;
     const auto input = [&] {
-        const Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
+        const Float edge[3] = {edgeOf(0), edgeOf(1), edgeOf(2)};
         return interpolate<Interpolators>(triangle, corners, edge, block.coverage, block.x, block.y);
     };
     const auto store = [&](const float4& color) {
@@ -131,13 +136,15 @@ template <class Interpolators, class FragmentProgram>
     const FragmentProgram& program = *static_cast<const FragmentProgram*>(fragmentProgram);
     CornerComponents<interpolatedComponents(FieldsOf<Interpolators>{})> components;
     TriangleWeights triangle;
+    TriangleEdges edges;
     for (auto next = blocks.begin(); next != blocks.end();) {
         const int current = next->triangle;
         const auto& [a, b, c] = corners[current].components;
         components.set(a, b, c);
         triangle.set(batch, current);
+        if constexpr (components.kCount == 0) edges.set(batch, current);
         do {
-            shadeBlock<Interpolators>(program, triangle, components, *next);
+            shadeBlock<Interpolators>(program, triangle, edges, components, *next);
         } while (++next != blocks.end() && next->triangle == current);
     }
 }

@@ -74,8 +74,7 @@ struct FromEdges
     }
     Uv at(int x, int y) const
     {
-        Float edge[3];
-        edges.at(x, y, edge);
+        const Float edge[3] = {edges.at(0, x, y), edges.at(1, x, y), edges.at(2, x, y)};
         const BlockWeights w = weights.of(edge, kAllLanes);
         return {components.perspective(0, w), components.perspective(1, w)};
     }
