@@ -11,7 +11,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "commands.h"
+#include "command_line.h"
 #include "scenes.h"
 
 namespace relief::samples {
@@ -97,8 +97,6 @@ public:
     }
 };
 
-}  // namespace
-
 Expected<void> bench(const std::vector<std::string>& arguments)
 {
     const int all = Workers().count();
@@ -127,4 +125,11 @@ Expected<void> bench(const std::vector<std::string>& arguments)
     return {};
 }
 
+}  // namespace
+
 }  // namespace relief::samples
+
+int main(int argc, char** argv)
+{
+    return relief::samples::runProgram(argc, argv, {.bench = relief::samples::bench});
+}
