@@ -72,7 +72,7 @@ struct List
 };
 
 // The largest error seen, and where.
-struct Error
+struct UlpError
 {
     void add(double error, float x)
     {
@@ -129,9 +129,9 @@ bool risesAcross(Function function, float x)
 }
 
 // The largest error of x^y for x in [low, high), in units of 1 + |y log2 x|.
-Error powError(double low, double high, float y)
+UlpError powError(double low, double high, float y)
 {
-    Error error;
+    UlpError error;
     const Range range(low, high, 200000 / kStride);
     evaluate(
         range, [y](Float x) { return pow(x, y); },
@@ -143,7 +143,7 @@ Error powError(double low, double high, float y)
 }
 
 // The errors of sin and cos from -limit to limit, and next to the multiples of pi/4 in between.
-void addSineErrors(double limit, Error& ofSin, Error& ofCos)
+void addSineErrors(double limit, UlpError& ofSin, UlpError& ofCos)
 {
     const auto addSin = [&](float x, float y) { ofSin.addAbsolute(x, y, std::sin(double{x})); };
     const auto addCos = [&](float x, float y) { ofCos.addAbsolute(x, y, std::cos(double{x})); };
@@ -167,7 +167,7 @@ void addSineErrors(double limit, Error& ofSin, Error& ofCos)
 
 TEST_CASE("exp2: the relative error over all fractions is below 1.1e-7")
 {
-    Error error;
+    UlpError error;
     for (const Floats& octave :
          {Floats(0x1p-3f, 0x1p-2f), Floats(0x1p-2f, 0.5f), Floats(0.5f, 1.0f), Floats(1.0f, 2.0f), Floats(-1.0f, -0.5f),
           Floats(-0.5f, -0x1p-2f), Floats(-0x1p-20f, -0x1p-21f)}) {
@@ -179,7 +179,7 @@ TEST_CASE("exp2: the relative error over all fractions is below 1.1e-7")
 
 TEST_CASE("exp2: the relative error over the whole range of normal results is below 1.1e-7")
 {
-    Error error;
+    UlpError error;
     const Range range(-126.0, 127.9999, 2000000 / kStride);
     evaluate(range, kExp2, [&](float x, float y) { error.addRelative(x, y, std::exp2(double{x})); });
     CAPTURE(error.at);
@@ -188,7 +188,7 @@ TEST_CASE("exp2: the relative error over the whole range of normal results is be
 
 TEST_CASE("exp2: a subnormal result is less than one step away")
 {
-    Error error;
+    UlpError error;
     const Range range(-152.0, -126.0, 1000000 / kStride);
     evaluate(range, kExp2, [&](float x, float y) { error.addAbsolute(x, y, std::exp2(double{x})); });
     CAPTURE(error.at);
@@ -236,7 +236,7 @@ TEST_CASE("exp2: special values")
 
 TEST_CASE("log2: the absolute error over all mantissas of 0.5 to 2 is below 1.2e-7")
 {
-    Error error;
+    UlpError error;
     for (const Floats& octave : {Floats(0.5f, 1.0f), Floats(1.0f, 2.0f)}) {
         evaluate(octave, kLog2, [&](float x, float y) { error.addAbsolute(x, y, std::log2(double{x})); });
     }
@@ -246,7 +246,7 @@ TEST_CASE("log2: the absolute error over all mantissas of 0.5 to 2 is below 1.2e
 
 TEST_CASE("log2: the relative error on 0.5 to 2, next to 1 too, is below 2.3e-7")
 {
-    Error error;
+    UlpError error;
     for (const Floats& octave : {Floats(0.5f, 1.0f), Floats(std::nextafter(1.0f, 2.0f), 2.0f)}) {
         evaluate(octave, kLog2, [&](float x, float y) { error.addRelative(x, y, std::log2(double{x})); });
     }
@@ -256,7 +256,7 @@ TEST_CASE("log2: the relative error on 0.5 to 2, next to 1 too, is below 2.3e-7"
 
 TEST_CASE("log2: the relative error over all mantissas of other octaves is below 1e-7")
 {
-    Error error;
+    UlpError error;
     for (const Floats& octave : {Floats(0x1p-2f, 0.5f), Floats(2.0f, 4.0f), Floats(0x1p-126f, 0x1p-125f),
                                  Floats(0x1p64f, 0x1p65f), Floats(0x1p127f, kInfinity)}) {
         evaluate(octave, kLog2, [&](float x, float y) { error.addRelative(x, y, std::log2(double{x})); });
@@ -267,7 +267,7 @@ TEST_CASE("log2: the relative error over all mantissas of other octaves is below
 
 TEST_CASE("log2: subnormal numbers have a relative error below 1e-7 too")
 {
-    Error error;
+    UlpError error;
     const Floats subnormal(kSmallest, kSmallestNormal);
     evaluate(subnormal, kLog2, [&](float x, float y) { error.addRelative(x, y, std::log2(double{x})); });
     CAPTURE(error.at);
@@ -313,7 +313,7 @@ TEST_CASE("pow: the relative error of a number in 0 to 1 is below 2e-7 * (1 + |y
 {
     for (const float y : {1.0f, 1.5f, 2.0f, 5.0f, 10.0f, 50.0f, 100.0f, 1000.0f, 10000.0f}) {
         const double low = std::exp2(-125.0 / double{y});  // where the result is still a normal number
-        const Error error = powError(std::max(low, 1e-30), 1.0, y);
+        const UlpError error = powError(std::max(low, 1e-30), 1.0, y);
         CAPTURE(y);
         CAPTURE(error.at);
         CHECK(error.largest < 2e-7);
@@ -323,7 +323,7 @@ TEST_CASE("pow: the relative error of a number in 0 to 1 is below 2e-7 * (1 + |y
 TEST_CASE("pow: the relative error of x > 1 and of roots is below 2e-7 * (1 + |y log2 x|)")
 {
     for (const float y : {-3.0f, -0.5f, 0.4166667f, 0.5f, 2.2f, 2.4f, 7.0f}) {
-        const Error error = powError(0.001, 1000.0, y);
+        const UlpError error = powError(0.001, 1000.0, y);
         CAPTURE(y);
         CAPTURE(error.at);
         CHECK(error.largest < 2e-7);
@@ -374,8 +374,8 @@ TEST_CASE("pow: of negative numbers and of NaN is NaN, as in HLSL")
 
 TEST_CASE("sin and cos: the absolute error on +-100 pi is below 1e-7")
 {
-    Error ofSin;
-    Error ofCos;
+    UlpError ofSin;
+    UlpError ofCos;
     addSineErrors(100.0 * std::numbers::pi, ofSin, ofCos);
     CAPTURE(ofSin.at);
     CAPTURE(ofCos.at);
@@ -385,8 +385,8 @@ TEST_CASE("sin and cos: the absolute error on +-100 pi is below 1e-7")
 
 TEST_CASE("sin and cos: the absolute error on +-8192 is below 1e-7")
 {
-    Error ofSin;
-    Error ofCos;
+    UlpError ofSin;
+    UlpError ofCos;
     addSineErrors(8192.0, ofSin, ofCos);
     CAPTURE(ofSin.at);
     CAPTURE(ofCos.at);
@@ -396,8 +396,8 @@ TEST_CASE("sin and cos: the absolute error on +-8192 is below 1e-7")
 
 TEST_CASE("sin and cos: the absolute error on +-100000 is below 1e-6")
 {
-    Error ofSin;
-    Error ofCos;
+    UlpError ofSin;
+    UlpError ofCos;
     addSineErrors(100000.0, ofSin, ofCos);
     CAPTURE(ofSin.at);
     CAPTURE(ofCos.at);
@@ -407,8 +407,8 @@ TEST_CASE("sin and cos: the absolute error on +-100000 is below 1e-6")
 
 TEST_CASE("sin: every float of 0.25 to 2, and cos of the same, is below 1e-7 away")
 {
-    Error ofSin;
-    Error ofCos;
+    UlpError ofSin;
+    UlpError ofCos;
     const Floats octaves(0.25f, 2.0f);
     evaluate(octaves, kSin, [&](float x, float y) { ofSin.addAbsolute(x, y, std::sin(double{x})); });
     evaluate(octaves, kCos, [&](float x, float y) { ofCos.addAbsolute(x, y, std::cos(double{x})); });
@@ -438,7 +438,7 @@ TEST_CASE("atan2: the relative error of all eight octants, over all mantissas, i
 {
     for (const float longer : {1.0f, -1.0f}) {
         for (const float sign : {1.0f, -1.0f}) {
-            Error error;
+            UlpError error;
             for (const Floats& octave : {Floats(0x1p-20f, 0x1.1p-20f), Floats(0x1p-3f, 0x1p-2f), Floats(0x1p-2f, 0.5f),
                                          Floats(0.5f, std::nextafter(1.0f, 2.0f))}) {
                 evaluate(
@@ -459,7 +459,7 @@ TEST_CASE("atan2: the relative error of all eight octants, over all mantissas, i
 TEST_CASE("atan2: the absolute error all around the circle is below 2.1e-7, for lengths of every size")
 {
     for (const float length : {1.0f, 0.3f, 1e-30f, 1e-37f, 1e30f, 3e38f}) {
-        Error error;
+        UlpError error;
         const std::uint32_t count = 200000 / kStride;
         for (std::uint32_t i = 0; i < count; ++i) {
             const double turn = 2.0 * std::numbers::pi * i / count;

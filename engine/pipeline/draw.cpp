@@ -21,11 +21,10 @@ struct TriangleInTile
 {
     TriangleWeights weights;
     TriangleEdges edges;
-    int lane = -1;
 
+    TriangleInTile(const TriangleBatch& batch, int triangle) { set(batch, triangle); }
     void set(const TriangleBatch& batch, int triangle)
     {
-        lane = triangle;
         weights.set(batch, triangle);
         edges.set(batch, triangle);
     }
@@ -121,6 +120,13 @@ void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, C
     }
 }
 
+TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Triangle& triangle)
+{
+    return {{componentsOf(draw.geometry, chunk, triangle.vertex[0]),
+             componentsOf(draw.geometry, chunk, triangle.vertex[1]),
+             componentsOf(draw.geometry, chunk, triangle.vertex[2])}};
+}
+
 }  // namespace
 
 [[gnu::flatten]] void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
@@ -131,17 +137,17 @@ void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, C
     const std::size_t groupSize = state.discards ? 1 : kBlocksPerGroup;
     std::array<ShadedBlock, kBlocksPerGroup> group;
     std::array<TriangleCorners, kLanes> corners;
-    TriangleInTile triangle;
     Counts counts;
+    int current = blocks.front().triangle;
+    TriangleInTile triangle(batch, current);
+    corners[static_cast<std::size_t>(current)] = cornersOf(draw, chunk, *batch.triangle[current]);
     for (auto next = blocks.begin(); next != blocks.end();) {
         std::size_t count = 0;
         for (; next != blocks.end() && count < groupSize; ++next) {
-            if (next->triangle != triangle.lane) {
-                triangle.set(batch, next->triangle);
-                for (int k = 0; k < 3; ++k) {
-                    corners[next->triangle].components[k] =
-                        componentsOf(draw.geometry, chunk, batch.triangle[next->triangle]->vertex[k]);
-                }
+            if (next->triangle != current) {
+                current = next->triangle;
+                triangle.set(batch, current);
+                corners[static_cast<std::size_t>(current)] = cornersOf(draw, chunk, *batch.triangle[current]);
             }
             ShadedBlock& block = group[count];
             block.x = next->x;

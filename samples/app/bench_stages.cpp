@@ -1,6 +1,7 @@
 // bench --stage: what drawing a stage costs, and whether another one costs more.
 #include <cstdio>
 
+#include "command_line.h"
 #include "cost.h"
 #include "pipeline/workers.h"
 
@@ -22,14 +23,12 @@ Expected<void> drawFrames(const PreparedStage& stage, Size size, const BenchOpti
     return {};
 }
 
-std::string text(const Quartiles& q)
+std::string withQuartiles(const Quartiles& q)
 {
     char buffer[64];
     std::snprintf(buffer, sizeof buffer, "%.3f (%.3f ... %.3f)", q.median, q.lower, q.upper);
     return buffer;
 }
-
-}  // namespace
 
 Expected<void> benchStages(const BenchOptions& options)
 {
@@ -56,7 +55,7 @@ Expected<void> benchStages(const BenchOptions& options)
     for (std::size_t i = 0; i < stages.size() && options.instructions; ++i) {
         if (options.countedProgram.empty()) {
             return fail("bench --instructions: no program to count in; run it as ./relief bench, or add " +
-                        std::string("--counted-program FILE with a relief built by `cmake --preset counted`"));
+                        std::string("--counted-program FILE with the same program built by `cmake --preset counted`"));
         }
         const Expected<double> counted = instructionsPerFragment(options.countedProgram, each[i]);
         if (!counted) return tl::unexpected(counted.error());
@@ -76,9 +75,16 @@ Expected<void> benchStages(const BenchOptions& options)
                     static_cast<unsigned long long>(cost.statistics.pixelsShaded), cost.fetchesPerFragment(),
                     quartiles(cost.seconds).median * 1e3, cost.nanosecondsPerFragment());
         if (options.instructions) std::printf("%21s  ", instructions[i].c_str());
-        std::printf("%s\n", text(ratio(cost, (*costs)[0])).c_str());
+        std::printf("%s\n", withQuartiles(ratio(cost, (*costs)[0])).c_str());
     }
     return {};
 }
 
+}  // namespace
+
 }  // namespace relief::samples
+
+int main(int argc, char** argv)
+{
+    return relief::samples::runProgram(argc, argv, {.benchStages = relief::samples::benchStages});
+}

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "commands.h"
+#include "prepare.h"
 
 namespace relief::samples {
 

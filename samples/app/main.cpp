@@ -1,251 +1,34 @@
-// relief: the command line of the samples.
-#include <algorithm>
-#include <cstdio>
-
-#include <CLI/CLI.hpp>
-
+// The program relief: pictures of stages, and what can be said of them. Measurements are programs of their own, so that
+// nobody who wants a picture builds them.
+#include "command_line.h"
 #include "commands.h"
-#include "leave_out.h"
 
 namespace {
 
 using namespace relief;
 using namespace relief::samples;
 
-void addPictureOptions(CLI::App& command, RenderOptions& options)
+#if defined(RELIEF_HAS_WINDOW)
+constexpr auto showWindow = view;
+#else
+Expected<void> showWindow(const RenderOptions&, int)
 {
-    command.add_option("--size", options.size, "Picture size in pixels")->type_name("WxH")->capture_default_str();
-    command.add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
-    command.add_option("--set", options.settings, "A property, as name=value; may be repeated")
-        ->type_name("NAME=VALUE");
-    command
-        .add_option("--mesh", options.files.mesh,
-                    "An OBJ file in place of the stage's mesh, or quad, cube, sphere, low-sphere, terrain")
-        ->type_name("FILE");
-    command.add_option("--albedo", options.files.albedo, "A picture (sRGB) in place of the albedo")->type_name("FILE");
-    command.add_option("--height", options.files.height, "A height map")->type_name("FILE");
-    command.add_option("--normal", options.files.normal, "A normal map (+Y), or its heights in grey")
-        ->type_name("FILE");
-    command.add_option("--detail", options.files.detail, "A detail albedo (sRGB)")->type_name("FILE");
-    command.add_option("--detail-normal", options.files.detailNormal, "A detail normal map (+Y), or its heights")
-        ->type_name("FILE");
-    command
-        .add_option("--import", options.files.import,
-                    "How normal maps are imported; may be repeated: storage=rgb|dxt5nm|dxt5, bumpiness=0.05, "
-                    "filter=smooth|sobel, heights=automatic|yes|no, fade=on|off")
-        ->type_name("NAME=VALUE");
-    command.add_option("--camera", options.camera, "Where the camera stands; it looks at the origin")
-        ->type_name("X,Y,Z");
-    command.add_flag("--show-tangents", options.showTangents, "Normals green, tangents red, binormals blue, as lines");
-    command.add_option("--tangent-scale", options.tangentScale, "How long those lines are")
-        ->check(CLI::Range(0.0f, 10.0f))
-        ->capture_default_str();
-    command.add_option("--tangent-offset", options.tangentOffset, "How far from the surface they begin")
-        ->check(CLI::Range(0.0f, 10.0f))
-        ->capture_default_str();
+    return fail(
+        "view: this build has no window, SDL2 was not found; install libsdl2-dev and build again "
+        "(`relief render` works without it)");
 }
-
-void addInputOptions(CLI::App& command, RenderOptions& options)
-{
-    command.add_option("stage", options.stage, "A stage, by number (1.07) or name (07_central_difference)")->required();
-    addPictureOptions(command, options);
-}
-
-// All but --stage are of no use without it; --peer takes size and threads too.
-void addBenchOptions(CLI::App& command, BenchOptions& options, PeerOptions& peerOptions)
-{
-    addPictureOptions(command, options.render);
-    command.add_option("--rounds", options.rounds, "How often each stage has its turn")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
-    CLI::Option* const frames = command
-                                    .add_option("--frames", options.frames,
-                                                "Draws as many frames of each stage, prints how many pixels one "
-                                                "shades, and measures nothing")
-                                    ->check(CLI::Range(1, 1000000));
-    command.add_flag("--instructions", options.instructions, "Counts instructions too, with valgrind: takes a while")
-        ->excludes(frames);
-    command.add_option("--counted-program", options.countedProgram, "The relief that they are counted in")
-        ->type_name("FILE");
-    for (CLI::Option* const option : command.get_options()) {
-        if (option != command.get_help_ptr()) option->group("With --stage");
-    }
-    CLI::Option* const stage =
-        command
-            .add_option("--stage", options.stages,
-                        "Measures stages, by number or name, on one thread unless told otherwise; may be repeated: "
-                        "they take turns, and each is compared with the first")
-            ->allow_extra_args(false);
-    CLI::Option* const peer =
-        command
-            .add_option("--peer", peerOptions.peer,
-                        "Draws the test scenes in turn with another rasterizer, mesa (its llvmpipe), and says how much "
-                        "faster Relief is and how far the pictures agree; takes --size (1920x1080 unless told "
-                        "otherwise) and --threads (all)")
-            ->check(CLI::IsMember({"mesa"}))
-            ->excludes(stage);
-    command.add_option("--scene", peerOptions.scenes, "With --peer: one of the test scenes alone; may be repeated")
-        ->allow_extra_args(false)
-        ->needs(peer);
-    command.add_option("--pairs", peerOptions.pairs, "With --peer: how often each of the two has its turn")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str()
-        ->needs(peer);
-    command.add_option("--alone", peerOptions.alone, "What first_frame starts: draws one frame of a scene")
-        ->check(CLI::IsMember({"relief", "mesa"}))
-        ->needs(peer)
-        ->group("");
-}
-
-// The first option given that is none of `known`; empty if there is none.
-std::string otherOption(const CLI::App& command, const std::vector<std::string>& known)
-{
-    for (const CLI::Option* const option : command.get_options()) {
-        if (option->count() > 0 && std::find(known.begin(), known.end(), option->get_name()) == known.end()) {
-            return option->get_name();
-        }
-    }
-    return "";
-}
-
-Expected<void> benchWith(const CLI::App& command, const BenchOptions& options, PeerOptions peerOptions)
-{
-    const std::vector<std::string> others = command.remaining();
-    const auto unknown = [&](const std::string& what) {
-        return fail(what + ": unknown option " + others[0] + "; see `relief bench --help`");
-    };
-    if (!peerOptions.peer.empty()) {
-        const std::string other =
-            otherOption(command, {"--peer", "--scene", "--pairs", "--alone", "--size", "--threads"});
-        if (!others.empty()) return unknown("bench --peer");
-        if (!other.empty()) return fail(other + ": bench --peer does not take it; see `relief bench --help`");
-        if (command.count("--size") > 0) peerOptions.size = options.render.size;
-        if (command.count("--threads") > 0) peerOptions.threads = options.render.threads;
-        return benchPeer(peerOptions);
-    }
-    if (!options.stages.empty()) return others.empty() ? benchStages(options) : unknown("bench --stage");
-    const std::string other = otherOption(command, {});
-    return other.empty() ? bench(others) : fail(other + ": bench takes it with --stage only");
-}
+#endif
 
 }  // namespace
 
 int main(int argc, char** argv)
 {
-    if (const Expected<void> checked = leavesOut::checkGeneric(leavesOut::generic()); !checked) {
-        std::fprintf(stderr, "relief: %s\n", checked.error().message.c_str());
-        return 2;
-    }
-    CLI::App app("Relief: a software rasterizer that one can read, step through and trust.", "relief");
-    app.require_subcommand(0, 1);
-    Expected<void> result;
-    RenderOptions options;
-    bool json = false;
-    std::string output, binormal;
-    int tileSize = kDefaultTileSize, frames = 0;
-
-    CLI::App* command = app.add_subcommand("list", "Shows all stages");
-    command->add_flag("--json", json, "As JSON, with the properties of each");
-    command->callback([&] { result = list(json); });
-
-    command = app.add_subcommand("render", "Renders a stage to a PNG file");
-    addInputOptions(*command, options);
-    command->add_option("-o,--output", output, "The file; default: the stage's name")->type_name("FILE.png");
-    command->callback([&] { result = render(options, output); });
-
-    command = app.add_subcommand("gallery", "Renders every stage, and a page that shows them");
-    std::string folder = "gallery";
-    command->add_option("--out", folder, "The folder")->capture_default_str()->type_name("DIR");
-    command->add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
-    command->callback([&] { result = gallery(folder, options.threads); });
-
-    command = app.add_subcommand("view", "Shows a stage in a window");
-    addInputOptions(*command, options);
-    command->add_option("--frames", frames, "Close after this many frames; 0: when the user does")
-        ->check(CLI::Range(0, 1000000));
-    command->callback([&] { result = view(options, frames); });
-
-    command = app.add_subcommand("hash", "Prints the hash of a stage's float colour and depth");
-    addInputOptions(*command, options);
-    command->add_option("--tile", tileSize, "Tile size in pixels")->check(CLI::IsMember({16, 32, 64, 128}));
-    command->callback([&] { result = hash(options, tileSize); });
-
-    command = app.add_subcommand("signature", "Prints what a stage's vertex programs hand to its fragment programs");
-    command->add_option("stage", options.stage, "A stage, by number or name")->required();
-    command->add_option("--set", options.settings, "A property, as name=value; may be repeated");
-    command->add_option("--binormal", binormal, "For stages with both variants: where the binormal is computed")
-        ->check(CLI::IsMember({"vertex", "fragment"}));
-    command->callback([&] { result = signature(options, binormal); });
-
-    command = app.add_subcommand("explain", "Prints what drawing a stage took, and what was left out");
-    addInputOptions(*command, options);
-    command->add_flag("--json", json, "As JSON");
-    command->callback([&] { result = explain(options, json); });
-
-    command = app.add_subcommand("bench",
-                                 "Measures how fast frames are: of test scenes (with options of Google Benchmark), of "
-                                 "stages with --stage, or beside another rasterizer with --peer");
-    BenchOptions benchOptions;
-    PeerOptions peerOptions;
-    addBenchOptions(*command, benchOptions, peerOptions);
-    command->allow_extras();
-    command->callback([&, command] { result = benchWith(*command, benchOptions, peerOptions); });
-
-    command = app.add_subcommand("report", "Measures what a chapter claims, and writes it down: text, table and plot");
-    ReportOptions reportOptions;
-    command
-        ->add_option("name", reportOptions.name,
-                     "triplanar: what each way to map normals costs, beside its error; performance: how cost grows "
-                     "with pixels, triangles, threads, lights and textures; error: every approximation's error "
-                     "beside its run time; stability: what extreme inputs do, measured against bounds; leave-out: "
-                     "what each stage did not need, and what that saved")
-        ->required();
-    command->add_option("--output", reportOptions.output, "The folder")->capture_default_str()->type_name("DIR");
-    command
-        ->add_option("--size", reportOptions.size,
-                     "Picture size in pixels; 960x540 for triplanar, 1920x1080 for performance unless told otherwise")
-        ->type_name("WxH");
-    command
-        ->add_option("--rounds", reportOptions.rounds,
-                     "How often each stage or scene has its turn; 31 for triplanar, 5 for performance unless told "
-                     "otherwise")
-        ->check(CLI::Range(1, 100000));
-    command
-        ->add_option("--part", reportOptions.part,
-                     "Of performance: leaves out what is larger than this part of the largest picture, mesh, texture "
-                     "and number of lights")
-        ->check(CLI::Range(1e-9, 1.0));
-    command
-        ->add_option("--only", reportOptions.only,
-                     "Of error and stability: one experiment or case alone, E-01 or S-301; may be repeated")
-        ->type_name("ID")
-        ->allow_extra_args(false);
-    command->add_flag("--count-only", reportOptions.countOnly, "What valgrind runs to count instructions")->group("");
-    command
-        ->add_option(
-            "--counted-program", reportOptions.countedProgram,
-            "Of triplanar, error and leave-out: the relief that instructions are counted in; ./relief builds one")
-        ->type_name("FILE");
-    command
-        ->add_option("--switchable-program", reportOptions.switchableProgram,
-                     "Of leave-out: a relief in which what is left out can be put back; ./relief builds one")
-        ->type_name("FILE");
-    command->add_option("--tests", reportOptions.tests, "Of stability: the test program; ./relief builds it")
-        ->type_name("FILE");
-    command->callback([&] { result = report(reportOptions); });
-
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-        std::fprintf(stderr, "relief: %s; see --help\n", error.what());
-        return 2;
-    }
-    if (argc < 2) std::fputs(app.help().c_str(), stdout);
-    if (!result) {
-        std::fprintf(stderr, "relief: %s\n", result.error().message.c_str());
-        return 2;
-    }
-    return 0;
+    return runProgram(argc, argv,
+                      {.list = list,
+                       .render = render,
+                       .gallery = gallery,
+                       .view = showWindow,
+                       .hash = hash,
+                       .signature = signature,
+                       .explain = explain});
 }

@@ -8,37 +8,11 @@
 
 #include "cost.h"
 #include "file.h"
+#include "report_options.h"
 
 namespace relief::samples {
 
 namespace {
-
-struct Report
-{
-    const char* name;
-    Expected<void> (*write)(const ReportOptions&);
-    const char* size;  // unless told otherwise, as the number of rounds
-    int rounds;
-    const char* takes;  // of the options that not every report takes
-};
-
-constexpr Report kReports[] = {
-    {"triplanar", reportTriplanar, "960x540", 31, "--size --rounds --counted-program"},
-    {"performance", reportPerformance, "1920x1080", 5, "--size --rounds --part"},
-    {"error", reportError, "", 15, "--rounds --only --counted-program"},
-    {"stability", reportStability, "", 0, "--only --tests"},
-    {"leave-out", reportLeaveOut, "480x270", 0, "--size --counted-program --switchable-program"},
-};
-
-Expected<const Report*> findReport(const std::string& name)
-{
-    std::string names;
-    for (const Report& r : kReports) {
-        if (name == r.name) return &r;
-        names += (names.empty() ? "" : ", ") + std::string(r.name);
-    }
-    return fail("report " + name + ": there is no such report; there is " + names);
-}
 
 std::string processor()
 {
@@ -74,7 +48,7 @@ std::string reportCommit()
 
 std::string reportHead(const std::string& title, const ReportOptions& options)
 {
-    const Report& usual = **findReport(options.name);
+    const ReportKind& usual = **findReport(options.name);
     std::string command = "./relief report " + options.name;
     if (options.size != usual.size) command += " --size " + options.size;
     if (options.rounds != usual.rounds) command += " --rounds " + std::to_string(options.rounds);
@@ -120,27 +94,6 @@ void showProgress(const std::string& line)
     if (isatty(STDOUT_FILENO) == 0) return;
     std::printf("\r\033[K%s", line.c_str());
     std::fflush(stdout);
-}
-
-Expected<void> report(const ReportOptions& options)
-{
-    const Expected<const Report*> found = findReport(options.name);
-    if (!found) return tl::unexpected(found.error());
-    const std::pair<bool, std::string> given[] = {{!options.size.empty(), "--size"},
-                                                  {options.rounds != 0, "--rounds"},
-                                                  {options.part < 1.0, "--part"},
-                                                  {!options.only.empty(), "--only"},
-                                                  {!options.tests.empty(), "--tests"},
-                                                  {!options.countedProgram.empty(), "--counted-program"},
-                                                  {!options.switchableProgram.empty(), "--switchable-program"}};
-    for (const auto& [isGiven, option] : given) {
-        const bool taken = (std::string((*found)->takes) + " ").find(option + " ") != std::string::npos;
-        if (isGiven && !taken) return fail("report " + options.name + ": it does not take " + option);
-    }
-    ReportOptions complete = options;
-    if (complete.size.empty()) complete.size = (*found)->size;
-    if (complete.rounds == 0) complete.rounds = (*found)->rounds;
-    return (*found)->write(complete);
 }
 
 }  // namespace relief::samples

@@ -1,16 +1,10 @@
 // Reports: measurements of this machine, written into a folder as text, table and plot. What they have in common.
 #pragma once
 
-#include "commands.h"
+#include "error.h"
+#include "options.h"
 
 namespace relief::samples {
-
-// One for each name that `relief report` takes.
-Expected<void> reportTriplanar(const ReportOptions& options);
-Expected<void> reportLeaveOut(const ReportOptions& options);
-Expected<void> reportPerformance(const ReportOptions& options);  // in tests/benchmarks
-Expected<void> reportStability(const ReportOptions& options);
-Expected<void> reportError(const ReportOptions& options);  // in tests/experiments
 
 // The lines that a report begins with: title, the command that made it, the machine, the compiler and the commit.
 std::string reportHead(const std::string& title, const ReportOptions& options);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "command_line.h"
 #include "cost.h"
 #include "leave_out.h"
 #include "report.h"
@@ -211,8 +212,6 @@ std::string document(const std::vector<Counted>& counted, const std::vector<Swit
            countsTable(counted);
 }
 
-}  // namespace
-
 Expected<void> reportLeaveOut(const ReportOptions& options)
 {
     const bool counts = !options.countedProgram.empty();
@@ -240,4 +239,12 @@ Expected<void> reportLeaveOut(const ReportOptions& options)
     return {};
 }
 
+}  // namespace
+
 }  // namespace relief::samples
+
+int main(int argc, char** argv)
+{
+    return relief::samples::runProgram(argc, argv,
+                                       {.reportName = "leave-out", .report = relief::samples::reportLeaveOut});
+}

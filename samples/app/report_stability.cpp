@@ -11,6 +11,7 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
+#include "command_line.h"
 #include "cost.h"
 #include "report.h"
 #include "stability_pictures.h"
@@ -298,8 +299,6 @@ std::string list(const std::vector<std::string>& words)
     return all;
 }
 
-}  // namespace
-
 Expected<void> reportStability(const ReportOptions& options)
 {
     if (options.tests.empty()) {
@@ -332,4 +331,12 @@ Expected<void> reportStability(const ReportOptions& options)
     return {};
 }
 
+}  // namespace
+
 }  // namespace relief::samples
+
+int main(int argc, char** argv)
+{
+    return relief::samples::runProgram(argc, argv,
+                                       {.reportName = "stability", .report = relief::samples::reportStability});
+}

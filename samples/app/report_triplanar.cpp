@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "command_line.h"
 #include "common/assets.h"
 #include "common/triplanar_methods.h"
 #include "cost.h"
@@ -363,8 +364,6 @@ std::string preamble(const Table& methods, const ReportOptions& options)
            "| G3 | the bump's normal is turned onto the surface, without stretch |\n\n";
 }
 
-}  // namespace
-
 Expected<void> reportTriplanar(const ReportOptions& options)
 {
     const Expected<void> canPlot = checkPlotting();
@@ -404,4 +403,12 @@ Expected<void> reportTriplanar(const ReportOptions& options)
     return {};
 }
 
+}  // namespace
+
 }  // namespace relief::samples
+
+int main(int argc, char** argv)
+{
+    return relief::samples::runProgram(argc, argv,
+                                       {.reportName = "triplanar", .report = relief::samples::reportTriplanar});
+}

@@ -11,6 +11,7 @@
 #include "relief.h"
 #include "report.h"
 #include "shading/cotangent_frame.h"
+#include "shading/normals.h"
 #include "shading/triplanar.h"
 #include "texture/image.h"
 

@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "commands.h"
+#include "error.h"
+#include "options.h"
 
 namespace relief::samples {
 

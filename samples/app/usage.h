@@ -1,7 +1,7 @@
 // What drawing a stage took, as counted while it ran. Behind `explain` and `report leave-out`.
 #pragma once
 
-#include "commands.h"
+#include "prepare.h"
 
 namespace relief::samples {
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/camera.h"
+#include "common/input_files.h"
 #include "relief.h"
 #include "shading/lights.h"
 #include "shading/normals.h"
@@ -46,14 +47,6 @@ struct Inputs
     ImportSettings normalImport = normalMapSettings(0.05f);
     ImportSettings detailImport = {};
     ImportSettings detailNormalImport = normalMapSettings(0.1f);
-};
-
-// The user's files in place of the defaults; empty: the default, "none": nothing. `mesh` may also be the name of a
-// primitive. And how to import normal maps.
-struct InputFiles
-{
-    std::string mesh, albedo, height, normal, detail, detailNormal;
-    std::vector<std::string> import;  // see import_options.h
 };
 
 // A mesh and where it stands.
@@ -204,7 +197,7 @@ Property bumpScaleProperty();
 Property mapScaleProperty(const std::string& name, float value);
 Property detailTilingProperty();
 
-// Where the binormal is computed: the default is the CMake option BINORMAL_PER_FRAGMENT.
+// Where the binormal is computed: the default is the CMake option RELIEF_BINORMAL_PER_FRAGMENT.
 inline constexpr bool kBinormalPerFragment = RELIEF_BINORMAL_PER_FRAGMENT != 0;
 Property binormalPerFragmentProperty(float value);
 

@@ -11,10 +11,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "commands.h"
+#include "command_line.h"
 #include "pipeline/instruments.h"
-#include "scenes.h"
 #include "pipeline/workers.h"
+#include "scenes.h"
 
 namespace relief::samples {
 
@@ -99,8 +99,6 @@ public:
     }
 };
 
-}  // namespace
-
 Expected<void> bench(const std::vector<std::string>& arguments)
 {
     const int all = Workers().count();
@@ -129,4 +127,11 @@ Expected<void> bench(const std::vector<std::string>& arguments)
     return {};
 }
 
+}  // namespace
+
 }  // namespace relief::samples
+
+int main(int argc, char** argv)
+{
+    return relief::samples::runProgram(argc, argv, {.bench = relief::samples::bench});
+}

@@ -12,7 +12,7 @@
 
 #include "agreement.h"
 #include "child_process.h"
-#include "commands.h"
+#include "command_line.h"
 #include "cost.h"
 #include "first_frame.h"
 #include "twins.h"
@@ -258,8 +258,6 @@ Expected<Times> timesOf(const Row& row, const Setting& setting, Mesa& mesa, std:
     return measure(**pair, setting.pairs);
 }
 
-}  // namespace
-
 Expected<void> benchPeer(const PeerOptions& options)
 {
     const Expected<Setting> setting = parse(options);
@@ -309,4 +307,11 @@ Expected<void> benchPeer(const PeerOptions& options)
     return {};
 }
 
+}  // namespace
+
 }  // namespace relief::samples
+
+int main(int argc, char** argv)
+{
+    return relief::samples::runProgram(argc, argv, {.benchPeer = relief::samples::benchPeer});
+}

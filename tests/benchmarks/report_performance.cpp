@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "command_line.h"
 #include "cost.h"
 #include "report.h"
 #include "scalings.h"
@@ -215,8 +216,6 @@ std::string document(const Table& table, const ReportOptions& options)
     return body + threadsText(table, options);
 }
 
-}  // namespace
-
 Expected<void> reportPerformance(const ReportOptions& options)
 {
     if (!options.countedProgram.empty()) return fail("report performance: it does not take --counted-program");
@@ -235,4 +234,12 @@ Expected<void> reportPerformance(const ReportOptions& options)
     return {};
 }
 
+}  // namespace
+
 }  // namespace relief::samples
+
+int main(int argc, char** argv)
+{
+    return relief::samples::runProgram(argc, argv,
+                                       {.reportName = "performance", .report = relief::samples::reportPerformance});
+}

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "commands.h"
+#include "prepare.h"
 
 namespace relief::benchmarks {
 

@@ -5,46 +5,6 @@
 
 namespace relief::experiments {
 
-const std::vector<Entry>& experiments()
-{
-    static const std::vector<Entry> all = {
-        {"E-01", zDecode},
-        {"E-02", bumpScale},
-        {"E-03", heightDerivatives},
-        {"E-04", bakedNormalMap},
-        {"E-05", normalizing},
-        {"E-06", normalBlends},
-        {"E-07", triplanarMethods},
-        {"E-08", triplanarWeights},
-        {"E-09", tangentFrames},
-        {"E-10", derivatives},
-        {"E-11", levelForms},
-        {"E-12", filters},
-        {"E-13", weightPrecision},
-        {"E-14", mipGeneration},
-        {"E-15", minifiedSpecular},
-        {"E-16", normalStorage},
-        {"E-17", spanPerspective},
-        {"E-18", attributeSetup},
-        {"E-19", reciprocal},
-        {"E-20", exponentials},
-        {"E-21", srgb},
-        {"E-22", lightingModels},
-        {"E-23", lights},
-        {"E-24", depth},
-        {"E-25", supersampling},
-        {"E-26", halfInterpolants},
-        {"E-27", tileSizes},
-        {"E-28", lanes},
-        {"E-29", threads},
-        {"E-30", leaveOut},
-        {"E-31", visibilityAndFresnel},
-        {"E-32", snapping},
-        {"E-33", litScene},
-    };
-    return all;
-}
-
 std::string number(double value, int digits)
 {
     char buffer[64];

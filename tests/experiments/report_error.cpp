@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "command_line.h"
 #include "cost.h"
 #include "experiments.h"
 #include "measure.h"
@@ -212,8 +213,6 @@ std::string index(const std::vector<Measured>& all, const ReportOptions& options
            "\n## All\n\n| experiment | variants | reference values held | what came out |\n|---|---|---|---|\n" + list;
 }
 
-}  // namespace
-
 // Into a folder of its own.
 Expected<void> reportError(const ReportOptions& given)
 {
@@ -252,4 +251,11 @@ Expected<void> reportError(const ReportOptions& given)
     return {};
 }
 
+}  // namespace
+
 }  // namespace relief::samples
+
+int main(int argc, char** argv)
+{
+    return relief::samples::runProgram(argc, argv, {.reportName = "error", .report = relief::samples::reportError});
+}

@@ -1,0 +1,30 @@
+// The command line, declared once for all programs: each is one that has functions for some of the commands. Any of
+// them knows all commands, so their words, help and messages are the same everywhere.
+#pragma once
+
+#include "error.h"
+#include "options.h"
+
+namespace relief::samples {
+
+// What a program does for each command. Where it has nothing, the message says how to get the program that has.
+struct Program
+{
+    Expected<void> (*list)(bool json) = nullptr;
+    Expected<void> (*render)(const RenderOptions& options, const std::string& output) = nullptr;
+    Expected<void> (*gallery)(const std::string& folder, int threads) = nullptr;
+    Expected<void> (*view)(const RenderOptions& options, int frames) = nullptr;
+    Expected<void> (*hash)(const RenderOptions& options, int tileSize) = nullptr;
+    Expected<void> (*signature)(const RenderOptions& options, const std::string& binormal) = nullptr;
+    Expected<void> (*explain)(const RenderOptions& options, bool json) = nullptr;
+    Expected<void> (*bench)(const std::vector<std::string>& arguments) = nullptr;
+    Expected<void> (*benchStages)(const BenchOptions& options) = nullptr;
+    Expected<void> (*benchPeer)(const PeerOptions& options) = nullptr;
+    const char* reportName = "";
+    Expected<void> (*report)(const ReportOptions& options) = nullptr;  // of that name
+};
+
+// What a main() returns: 0, or 2 after one line on stderr.
+int runProgram(int argc, char** argv, const Program& program);
+
+}  // namespace relief::samples

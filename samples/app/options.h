@@ -1,0 +1,60 @@
+// What the words of the command line come to: one struct for each command that takes more than a word or two.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/input_files.h"
+
+namespace relief::samples {
+
+// What a stage is rendered with.
+struct RenderOptions
+{
+    std::string stage;
+    std::string size = "960x540";
+    int threads = 0;
+    std::vector<std::string> settings;
+    InputFiles files;
+    std::string camera;  // "X,Y,Z"; empty: the stage's
+    bool showTangents = false;
+    float tangentScale = 0.1f, tangentOffset = 0.01f;
+};
+
+// What `bench --stage` measures. --set and the files go to every stage.
+struct BenchOptions
+{
+    RenderOptions render = {.threads = 1};
+    std::vector<std::string> stages;
+    int rounds = 15;
+    int frames = 0;  // more than 0: draw as many and measure nothing
+    bool instructions = false;
+    std::string countedProgram;
+};
+
+// What `bench --peer` measures, and beside whom.
+struct PeerOptions
+{
+    std::string peer;
+    std::vector<std::string> scenes;  // by name; none: all
+    std::string size = "1920x1080";
+    int threads = 0, pairs = 9;
+    std::string alone;  // "relief" or "mesa": that one draws one frame of a scene, and nothing is measured
+};
+
+// What `report` measures, and where the files go.
+struct ReportOptions
+{
+    std::string name, output = "docs/report";
+    std::string size;               // empty: the report's own
+    int rounds = 0;                 // 0: the report's own
+    std::vector<std::string> only;  // of `error` and `stability`: these experiments or cases; none: all
+    double part = 1.0;              // of `performance`: how far its scalings go, as a part of the whole way
+    std::string countedProgram;     // empty: instructions are not counted
+    std::string switchableProgram;  // of `leave-out`: the same of a build with RELIEF_SWITCHES; empty: not counted
+    std::string tests;              // of `stability`: the test program
+    std::string buildFolder;        // of `build`: a configured build; empty: this program's
+    bool countOnly = false;         // of `error`: runs each variant between marks for valgrind, and writes nothing
+};
+
+}  // namespace relief::samples
