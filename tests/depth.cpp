@@ -91,7 +91,7 @@ std::uint64_t bitsOf(const Framebuffer& target, int x, int y)
     const std::size_t i =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width()) + static_cast<std::size_t>(x);
     std::uint64_t hash = !target.color32f().empty() ? hashBytes(&target.color32f()[i], sizeof(glm::vec4))
-                                                                 : hashBytes(&target.color8()[i], 4);
+                                                    : hashBytes(&target.color8()[i], 4);
     return hashBytes(&target.depth()[i], 4, hash);
 }
 
@@ -162,9 +162,7 @@ TEST_CASE("depth: S-956 nothing outside of the rectangle that is drawn changes, 
     Random random(956);
     int changed = 0, same = 0;
     for (int trial = 0; trial < trials(300); ++trial) {
-        const Format format = trial % 3 == 0   ? Format::rgba8
-                                   : trial % 3 == 1 ? Format::rgba8Srgb
-                                                    : Format::rgba32f;
+        const Format format = trial % 3 == 0 ? Format::rgba8 : trial % 3 == 1 ? Format::rgba8Srgb : Format::rgba32f;
         const int width = random.between(1, 70), height = random.between(1, 70);
         Framebuffer target = makeTarget(width, height, format, Store::keep);
         // Every pixel another pattern: the guard around what is drawn.

@@ -141,7 +141,8 @@ TEST_CASE("draw: noperspective is linear on the screen, clipped or not")
                 if (pixel(target, x, y).x == -9.0f) continue;
                 const double dx = x + 0.5 - plane[0].x, dy = y + 0.5 - plane[0].y;
                 const double b = (dx * q.y - dy * q.x) / area, c = (p.x * dy - p.y * dx) / area;
-                worst = std::fmax(worst, std::fabs(plane[0].z + b * p.z + c * q.z - static_cast<double>(pixel(target, x, y).x)));
+                worst = std::fmax(
+                    worst, std::fabs(plane[0].z + b * p.z + c * q.z - static_cast<double>(pixel(target, x, y).x)));
                 ++checked;
             }
         }
@@ -173,8 +174,8 @@ TEST_CASE("draw: an interpolator that nobody assigns is 0")
 
 TEST_CASE("draw: a vertex's neighbours do not depend on other draws")
 {
-    // HLSL has no ddx in vertex programs. Here it compares a vertex with its neighbours in fours, which must at least be
-    // the same ones in every frame.
+    // HLSL has no ddx in vertex programs. Here it compares a vertex with its neighbours in fours, which must at least
+    // be the same ones in every frame.
     struct Differences
     {
         Interpolated operator()(const TestVertexData& v) const
@@ -185,7 +186,8 @@ TEST_CASE("draw: a vertex's neighbours do not depend on other draws")
     Mesh mesh;
     for (int i = 0; i < 20; ++i) {
         const auto n = static_cast<float>(i * i);
-        addTriangle(mesh, {{-1, -1, 0.5f, 1}, glm::vec4(n)}, {{-1, 3, 0.5f, 1}, glm::vec4(2 * n)}, {{3, -1, 0.5f, 1}, glm::vec4(n)});
+        addTriangle(mesh, {{-1, -1, 0.5f, 1}, glm::vec4(n)}, {{-1, 3, 0.5f, 1}, glm::vec4(2 * n)},
+                    {{3, -1, 0.5f, 1}, glm::vec4(n)});
     }
     std::uint64_t first = 0;
     int other = 0;

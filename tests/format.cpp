@@ -124,8 +124,8 @@ TEST_CASE("format: clearing depth alone keeps the colour, clearing colour alone 
     // Reversed depth onto kept colour.
     frame.reset();
     frame.clearDepth(0.0f);
-    REQUIRE(frame.draw(mesh, FromClip{}, Value{}, {Compare::greater, true, true, Cull::none, Blend::additive})
-                .has_value());
+    REQUIRE(
+        frame.draw(mesh, FromClip{}, Value{}, {Compare::greater, true, true, Cull::none, Blend::additive}).has_value());
     frame.run();
     CHECK(pixelsNotEqualTo(target, 1.5f) == 0);
 }

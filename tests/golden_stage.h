@@ -31,9 +31,8 @@ inline Expected<Framebuffer> renderForGolden(const Stage& stage, Format format, 
     }
     const Expected<PreparedStage> prepared = PreparedStage::prepare(stage, settings);
     if (!prepared) return tl::unexpected(prepared.error());
-    Expected<Framebuffer> target =
-        Framebuffer::create(kGoldenWidth, kGoldenHeight, format,
-                            format == Format::rgba32f ? Store::keep : Store::discard);
+    Expected<Framebuffer> target = Framebuffer::create(kGoldenWidth, kGoldenHeight, format,
+                                                       format == Format::rgba32f ? Store::keep : Store::discard);
     if (!target) return target;
     Frame frame(*target, options);
     prepared->record(frame, kGoldenWidth, kGoldenHeight);

@@ -43,10 +43,7 @@ public:
         const Float edge[3] = {edges.at(0, x, y), edges.at(1, x, y), edges.at(2, x, y)};
         return weights.of(edge, coverage);
     }
-    Float depthAt(int x, int y) const
-    {
-        return weights.depth(edges.at(1, x, y), edges.at(2, x, y));
-    }
+    Float depthAt(int x, int y) const { return weights.depth(edges.at(1, x, y), edges.at(2, x, y)); }
     Float clipW(const BlockWeights& w) const { return weights.clipW(w); }
 
 private:

@@ -114,7 +114,7 @@ std::uint64_t pictureWith(const Mesh& mesh, Format format)
     frame.clear(glm::vec4(0.0f));
     frame.setViewport(viewport);
     frame.draw(mesh, VertexProgram<(features & interpolates) != 0>{FromPixels(viewport)},
-                       FragmentProgram<features>{{.texture = &Texture::white()}}, kState);
+               FragmentProgram<features>{{.texture = &Texture::white()}}, kState);
     const Statistics statistics = frame.run();
     checkInvariants(target, statistics);
     CHECK(statistics.rasterised == mesh.indices.size() / 3);
@@ -371,8 +371,8 @@ TEST_CASE("leave out: S-1107 a light that does not reach needs no pass, and ligh
             frame.draw(sphere, LitVertexProgram{object}, LitFragmentProgram<DirectionalLight, false>{sun, dark, {}});
         }
         if (lamp != nullptr) {
-            frame.draw(sphere, LitVertexProgram{object},
-                                  LitFragmentProgram<PointLight, false>{*lamp, dark, {}}, kAdditive);
+            frame.draw(sphere, LitVertexProgram{object}, LitFragmentProgram<PointLight, false>{*lamp, dark, {}},
+                       kAdditive);
         }
         draws = static_cast<int>(frame.run().draws);
         return target;

@@ -413,7 +413,7 @@ TEST_CASE("output merger: sums saturate instead of wrapping, or overflowing (S-9
             frame.clear(glm::vec4(-value));
             frame.setViewport({0, 0, 8, 8});
             frame.draw(mesh, FromPixels({0, 0, 8, 8}),
-                               Uniform{float4(Float(value), Float(value), Float(value), Float(alpha))}, kAlpha);
+                       Uniform{float4(Float(value), Float(value), Float(value), Float(alpha))}, kAlpha);
             checkInvariants(wide, frame.run());
         }
     }
@@ -453,7 +453,7 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
                     const bool written = lane >= 0 && (live >> lane & 1u) != 0;
                     const auto at = static_cast<std::size_t>(y * 16 + x);
                     const bool same = format == Format::rgba32f ? target.color32f()[at] == cleared.color32f()[at]
-                                                                     : target.color8()[at] == cleared.color8()[at];
+                                                                : target.color8()[at] == cleared.color8()[at];
                     wrong += same == written;
                 }
             }

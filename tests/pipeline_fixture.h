@@ -308,8 +308,7 @@ inline constexpr RenderState kPaint = {Compare::always, false, true, Cull::none,
 // The usual state, but for culling.
 inline constexpr RenderState kDepthTested = {Compare::less, true, true, Cull::none, Blend::off};
 
-inline Framebuffer makeTarget(int width, int height, Format format = Format::rgba32f,
-                              Store depth = Store::discard)
+inline Framebuffer makeTarget(int width, int height, Format format = Format::rgba32f, Store depth = Store::discard)
 {
     Expected<Framebuffer> target = Framebuffer::create(width, height, format, depth);
     REQUIRE(target.has_value());

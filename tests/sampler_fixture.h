@@ -9,9 +9,9 @@
 #include <doctest/doctest.h>
 
 #include "hlsl/derivatives.h"
-#include "texture/shading_scope.h"
 #include "stability.h"
 #include "texture/sampler.h"
+#include "texture/shading_scope.h"
 
 namespace sampler_fixture {
 

@@ -125,7 +125,8 @@ TEST_CASE("sampler_lanes: lanes that do not count neither build levels nor chang
         (void)tex2Dgrad(s, evenly(1.0f), far, zero);
     }
     CHECK(texture.levelsBuilt() == 1);
-    CHECK(shading.fetches == FetchCounters{.trilinear = 4, .magnified = 4, .secondLevelSkipped = 4, .noDerivatives = 4});
+    CHECK(shading.fetches ==
+          FetchCounters{.trilinear = 4, .magnified = 4, .secondLevelSkipped = 4, .noDerivatives = 4});
     {
         const ActiveLanes counting(0u);
         (void)tex2Dgrad(s, evenly(1.0f), zero, zero);
@@ -307,7 +308,8 @@ TEST_CASE("sampler_lanes: tex2DWhere is tex2D where it is needed, 0 elsewhere, a
         const FetchCounters before = shading.fetches;
         const float4 some = tex2DWhere(Mask::fromBits(needed), s, uv);
         CHECK(shading.activeLanes == active);
-        CHECK(shading.fetches.trilinear - before.trilinear == static_cast<std::uint64_t>(std::popcount(needed & active)));
+        CHECK(shading.fetches.trilinear - before.trilinear ==
+              static_cast<std::uint64_t>(std::popcount(needed & active)));
         for (int i = 0; i < kLanes; ++i) {
             if ((active >> i & 1u) == 0) continue;
             const bool wanted = (needed >> i & 1u) != 0;

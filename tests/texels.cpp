@@ -69,7 +69,7 @@ TEST_CASE("texels: an edge function is the same number from both sides, for any 
     for (int i = 0; i < 1000; ++i) {
         const glm::dvec2 a = point(), b = point();
         const glm::dvec2 between = a + (b - a) * 0.3;  // where only the rounding decides
-        different += detail::edgeFunction(a, b, between) != -detail::edgeFunction(b, a, between);
+        different += texels::edgeFunction(a, b, between) != -texels::edgeFunction(b, a, between);
     }
     CHECK(different == 0);
 }

@@ -82,7 +82,8 @@ TEST_CASE("tile: store and clear write their own rectangle only (S-957)")
                 for (int x = 0; x < 50; ++x) {
                     const auto i = static_cast<std::size_t>(y * 50 + x);
                     const std::size_t words = static_cast<std::size_t>(wordsPerPixel(format));
-                    const bool same = std::memcmp(&target.words(0)[i * words], &before.words(0)[i * words], 4 * words) == 0;
+                    const bool same =
+                        std::memcmp(&target.words(0)[i * words], &before.words(0)[i * words], 4 * words) == 0;
                     const bool inside = x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
                     changed += !inside && (!same || target.depth()[i] != before.depth()[i]);
                     kept += inside && (same || target.depth()[i] == before.depth()[i]);
@@ -146,7 +147,8 @@ TEST_CASE("tile: blocks hold the pixels that their lanes name")
             float nearest = 2.0f, farthest = -1.0f;
             for (int lane = 0; lane < kLanes; ++lane) {
                 const auto i = static_cast<std::size_t>((y + laneY(lane)) * 64 + x + laneX(lane));
-                for (int c = 0; c < 4; ++c) wrong += std::bit_cast<float>(tile.color(block)[c * kLanes + lane]) != target.color32f()[i][c];
+                for (int c = 0; c < 4; ++c)
+                    wrong += std::bit_cast<float>(tile.color(block)[c * kLanes + lane]) != target.color32f()[i][c];
                 wrong += tile.depth(block)[lane] != target.depth()[i];
                 nearest = std::fmin(nearest, target.depth()[i]);
                 farthest = std::fmax(farthest, target.depth()[i]);

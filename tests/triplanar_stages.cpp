@@ -256,8 +256,8 @@ Framebuffer normalsOf(const Mesh& mesh)
     Frame frame(target, {1, kDefaultTileSize});
     frame.clear(glm::vec4(0.0f));
     const glm::mat4 clipFromWorld = {{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 1.0f, 1}, {0, 0, -0.1f, 0}};
-    frame.draw(mesh, VertexProgram{ObjectTransform(clipFromWorld, glm::mat4(1.0f))},
-                                                CotangentProgram(), RenderState{.cull = Cull::none});
+    frame.draw(mesh, VertexProgram{ObjectTransform(clipFromWorld, glm::mat4(1.0f))}, CotangentProgram(),
+               RenderState{.cull = Cull::none});
     frame.run();
     return target;
 }

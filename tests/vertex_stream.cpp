@@ -124,7 +124,8 @@ TEST_CASE("vertex streams: any number of vertices, whole lanes or not, to the la
                 readStream(stream, element, n, lanes);
                 for (std::uint32_t i = 0; i < n; ++i) {
                     for (std::size_t c = 0; c < 4; ++c) {
-                        const int expected = c < components ? static_cast<int>((first + i) * components + c + 1) : c == 3;
+                        const int expected =
+                            c < components ? static_cast<int>((first + i) * components + c + 1) : c == 3;
                         wrong += asInt(lanes[c])[static_cast<int>(i)] != expected;
                     }
                 }
@@ -139,7 +140,9 @@ TEST_CASE("vertex streams: a mesh without what VertexData asks for is one senten
     Mesh mesh = screen();
     CHECK(errorOf(mesh).empty());
     mesh.colors.clear();
-    CHECK(errorOf(mesh) == "draw of mesh 'screen': it has no COLOR0, which VertexData asks for; give the mesh that stream, or take the field out");
+    CHECK(errorOf(mesh) ==
+          "draw of mesh 'screen': it has no COLOR0, which VertexData asks for; give the mesh that stream, or take the "
+          "field out");
     mesh = screen();
     mesh.uvs.pop_back();
     CHECK(names(errorOf(mesh), "its TEXCOORD0 holds 2 elements for 3 vertices"));

@@ -5,7 +5,7 @@
 
 #include "hlsl/types.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 inline Float ddx(Float v)
 {
@@ -77,4 +77,4 @@ LaneVector<Float, n> fwidth(const LaneVector<Float, n>& v)
     return abs(ddx(v)) + abs(ddy(v));
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -12,7 +12,7 @@
 #include "hlsl/types.h"
 #include "hlsl/vector_intrinsics.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 inline float3 cross(const float3& a, const float3& b)
 {
@@ -38,4 +38,4 @@ inline float3x3 upper3x3(const float4x4& m)
     return float3x3(m);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -7,7 +7,7 @@
 
 #include "hlsl/vector.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 template <int n>
 struct LaneMatrix
@@ -90,4 +90,4 @@ inline Float determinant(const LaneMatrix<4>& m)
            minor(0, 1, 1, 3) * minor(2, 3, 0, 2) + minor(0, 1, 2, 3) * minor(2, 3, 0, 1);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -6,7 +6,7 @@
 
 #include "lanes/math.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 inline Float lerp(Float a, Float b, Float t)
 {
@@ -142,4 +142,4 @@ auto select(Mask m, A a, B b)
     return select(m, Lanes(a), Lanes(b));
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -13,7 +13,7 @@
 
 #include "hlsl/types.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // How a value gets from the vertices to a pixel: linear in space, linear on the screen, or the first vertex's.
 enum class Interpolation
@@ -23,8 +23,8 @@ enum class Interpolation
     flat
 };
 
-// A value with a meaning. `Meaning` is the semantic's tag, `T` one of Float, float2, float3, float4, Int, int2 ... int4.
-// A field that nobody assigns is 0.
+// A value with a meaning. `Meaning` is the semantic's tag, `T` one of Float, float2, float3, float4, Int, int2 ...
+// int4. A field that nobody assigns is 0.
 template <class Meaning, class T>
 struct Semantic : T
 {
@@ -107,7 +107,7 @@ struct With<Semantic<Meaning, T>, interpolation>
 // What a vertex program takes.
 using POSITION = Semantic<semantic::Position, float4>;
 using NORMAL = Semantic<semantic::Normal, float3>;
-using TANGENT = Semantic<semantic::Tangent, float4>;  // xyz, and the binormal's sign in w
+using TANGENT = Semantic<semantic::Tangent, float4>;          // xyz, and the binormal's sign in w
 using SV_VertexID = Semantic<semantic::SvVertexId, Int>;      // the vertex's number in its mesh
 using SV_InstanceID = Semantic<semantic::SvInstanceId, Int>;  // the instance's number in its draw
 
@@ -353,4 +353,4 @@ constexpr bool hasField()
     return hasField<Wanted>(FieldsOf<Struct>{});
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::string signatureOf(std::span<const Field> fields)
     return table;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -9,7 +9,7 @@
 
 #include "hlsl/semantics.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // One field of a struct of semantics.
 struct Field
@@ -50,4 +50,4 @@ std::string signature()
     return signatureOf(kFields<Interpolators>);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -2,7 +2,9 @@
 // letters long. A swizzle is a function that returns a copy; it cannot be assigned to.
 #pragma once
 
-namespace relief {
+#include "lanes/width.h"
+
+namespace relief::inline RELIEF_WIDTH {
 
 template <class T, int n>
 struct LaneVector;
@@ -115,4 +117,4 @@ struct Components<T, 4>
 
 }  // namespace detail
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

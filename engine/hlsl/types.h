@@ -9,7 +9,7 @@
 #error "GLM's intrinsics bring an approximate rsqrt, whose bits differ between processors: do not define them"
 #endif
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 template <int size>
 using FloatN = LaneVector<Float, size>;
@@ -72,4 +72,4 @@ inline glm::mat4 firstLane(const float4x4& m)
     return {firstLane(m[0]), firstLane(m[1]), firstLane(m[2]), firstLane(m[3])};
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

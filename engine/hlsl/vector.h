@@ -17,7 +17,7 @@
 #include "hlsl/vector_intrinsics.h"
 #include "lanes/float.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace detail {
 
@@ -217,4 +217,4 @@ LaneVector<Float, n> operator/(Float a, const glm::vec<n, float>& b)
     return a / LaneVector<Float, n>(b);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

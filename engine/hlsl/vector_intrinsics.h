@@ -12,7 +12,7 @@
 #include "hlsl/scalar_intrinsics.h"
 #include "hlsl/swizzles.h"
 
-namespace relief::detail {
+namespace relief::inline RELIEF_WIDTH::detail {
 
 // A vector of function(x), function(y) ... of the components of one or more vectors.
 template <class Result, class Function, class T, int n, class... Others>
@@ -267,4 +267,4 @@ struct VectorIntrinsics<Mask, n>
 #undef RELIEF_OF_EACH_TWO
 #undef RELIEF_OF_EACH_THREE
 
-}  // namespace relief::detail
+}  // namespace relief::inline RELIEF_WIDTH::detail

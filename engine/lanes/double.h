@@ -4,7 +4,7 @@
 
 #include "lanes/float.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 class Double
 {
@@ -36,4 +36,4 @@ inline unsigned negativeBits(Double a)
     return native::negativeBits(a.low, a.high);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -10,7 +10,7 @@
 #include "lanes/int.h"
 #include "lanes/mask.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 class Float
 {
@@ -175,4 +175,4 @@ Float permuteQuad(Float a)
     return Float(native::permuteQuad<a0, a1, a2, a3>(a.value));
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -7,7 +7,7 @@
 
 #include "lanes/mask.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 class Int
 {
@@ -141,4 +141,4 @@ inline Int laneYs()
     return Int::load(detail::kLanePixels.y);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

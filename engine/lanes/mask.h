@@ -6,7 +6,7 @@
 
 #include "lanes/native.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 class Mask
 {
@@ -62,4 +62,4 @@ constexpr unsigned wholeQuads(unsigned bits)
     return quads * 0xfu;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -9,7 +9,7 @@
 #include "lanes/float.h"
 #include "lanes/trigonometry.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace detail {
 
@@ -144,4 +144,4 @@ inline float pow(float x, float y)
     return pow(Float(x), Float(y))[0];
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -14,7 +14,7 @@
 
 #include "lanes/width.h"
 
-namespace relief::native {
+namespace relief::inline RELIEF_WIDTH::native {
 
 typedef float FloatVector __attribute__((vector_size(4 * kLanes)));
 typedef std::int32_t IntVector __attribute__((vector_size(4 * kLanes)));
@@ -127,7 +127,7 @@ inline QuadVector loadQuad(const std::byte* address)
     return r;
 }
 
-}  // namespace relief::native
+}  // namespace relief::inline RELIEF_WIDTH::native
 
 // Each of these files has: select; min, max, maxOrNaN; signBits, maskBits; sqrt, floor, roundToInt; lowToDouble,
 // highToDouble, toFloat, negativeBits; insertQuad, storeQuads, loadTwoHalves; multiplyAddHalves. NEON and wasm's

@@ -5,7 +5,7 @@
 
 #include "lanes/native.h"
 
-namespace relief::native {
+namespace relief::inline RELIEF_WIDTH::native {
 
 inline FloatVector select(MaskVector m, FloatVector a, FloatVector b)
 {
@@ -107,4 +107,4 @@ inline IntVector multiplyAddHalves(IntVector a, IntVector b)
     return (IntVector)_mm256_madd_epi16((__m256i)a, (__m256i)b);
 }
 
-}  // namespace relief::native
+}  // namespace relief::inline RELIEF_WIDTH::native

@@ -14,7 +14,7 @@
 
 #include "lanes/native.h"
 
-namespace relief::native {
+namespace relief::inline RELIEF_WIDTH::native {
 
 typedef __mmask16 MaskVector;
 
@@ -164,4 +164,4 @@ inline IntVector multiplyAddHalves(IntVector a, IntVector b)
 #endif
 }
 
-}  // namespace relief::native
+}  // namespace relief::inline RELIEF_WIDTH::native

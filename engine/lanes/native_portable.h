@@ -6,7 +6,7 @@
 
 #include "lanes/native.h"
 
-namespace relief::native {
+namespace relief::inline RELIEF_WIDTH::native {
 
 inline IntVector select(MaskVector m, IntVector a, IntVector b)
 {
@@ -108,4 +108,4 @@ inline IntVector multiplyAddHalves(IntVector a, IntVector b)
     return ((a << 16) >> 16) * ((b << 16) >> 16) + (a >> 16) * (b >> 16);
 }
 
-}  // namespace relief::native
+}  // namespace relief::inline RELIEF_WIDTH::native

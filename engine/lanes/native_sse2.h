@@ -7,7 +7,7 @@
 
 #include "lanes/native.h"
 
-namespace relief::native {
+namespace relief::inline RELIEF_WIDTH::native {
 
 inline IntVector select(MaskVector m, IntVector a, IntVector b)
 {
@@ -108,4 +108,4 @@ inline IntVector multiplyAddHalves(IntVector a, IntVector b)
     return (IntVector)_mm_madd_epi16((__m128i)a, (__m128i)b);
 }
 
-}  // namespace relief::native
+}  // namespace relief::inline RELIEF_WIDTH::native

@@ -5,7 +5,7 @@
 
 #include "lanes/native.h"
 
-namespace relief::native {
+namespace relief::inline RELIEF_WIDTH::native {
 
 // a, b, c and d hold a lane's four words in every quad: out[k] has the k-th word of every lane. Its own inverse.
 inline void transposeQuads(IntVector a, IntVector b, IntVector c, IntVector d, IntVector out[4])
@@ -115,4 +115,4 @@ inline void loadTransposedPair(const std::byte* const* address, IntVector out[2]
     loadTransposed<TwoWords>([address](int lane) { return address[lane]; }, out);
 }
 
-}  // namespace relief::native
+}  // namespace relief::inline RELIEF_WIDTH::native

@@ -3,7 +3,7 @@
 
 #include "lanes/float.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace detail {
 
@@ -122,4 +122,4 @@ inline float atan2(float y, float x)
     return atan2(Float(y), Float(x))[0];
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -33,7 +33,17 @@
 #error "RELIEF_LANES must be 4, 8 or 16"
 #endif
 
-namespace relief {
+// Everything that depends on the width lies in a namespace named after it, within relief: a program that is compiled
+// for another width than the library does not link with it, instead of drawing nothing.
+#if RELIEF_LANES == 16
+#define RELIEF_WIDTH lanes16
+#elif RELIEF_LANES == 8
+#define RELIEF_WIDTH lanes8
+#else
+#define RELIEF_WIDTH lanes4
+#endif
+
+namespace relief::inline RELIEF_WIDTH {
 
 inline constexpr int kLanes = RELIEF_LANES;
 inline constexpr int kBlockWidth = kLanes == 4 ? 2 : 4;    // pixels
@@ -56,4 +66,4 @@ constexpr int laneAt(int x, int y)
     return (x & 1) + (x & 2) * 2 + (y & 1) * 2 + (y & 2) * 4;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

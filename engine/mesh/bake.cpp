@@ -161,9 +161,9 @@ private:
         glm::dvec3 sum(0);
         for (int dy = -1; dy <= 1; ++dy) {
             for (int dx = -1; dx <= 1; ++dx) {
-                const std::size_t neighbour = static_cast<std::size_t>(detail::wrapped(y + dy, map.height)) *
+                const std::size_t neighbour = static_cast<std::size_t>(texels::wrapped(y + dy, map.height)) *
                                                   static_cast<std::size_t>(map.width) +
-                                              static_cast<std::size_t>(detail::wrapped(x + dx, map.width));
+                                              static_cast<std::size_t>(texels::wrapped(x + dx, map.width));
                 if (map.states[neighbour] != TexelState::background) sum += glm::dvec3(map.normals[neighbour]);
             }
         }

@@ -50,7 +50,8 @@ Expected<void> checkStream(const Mesh& mesh, const VertexStream& stream)
                     std::to_string(stream.components));
     }
     for (const float number : stream.floats) {
-        if (!std::isfinite(number)) return fail(name + " holds a number that is not finite; repair or rescale the mesh");
+        if (!std::isfinite(number))
+            return fail(name + " holds a number that is not finite; repair or rescale the mesh");
     }
     return {};
 }

@@ -14,7 +14,7 @@ namespace relief {
 // uvs beyond this are refused by those who bake: a picture is one period, and its islands belong into it.
 inline constexpr float kLargestBakedUv = 16.0f;
 
-namespace detail {
+namespace texels {
 
 // Twice the area of a, b, c. The ends are taken in a fixed order, so that the triangles on both sides of an edge get
 // the same number with opposite signs: rounding leaves no gap between them.
@@ -30,7 +30,7 @@ inline int wrapped(int i, int size)
     return rest < 0 ? rest + size : rest;
 }
 
-}  // namespace detail
+}  // namespace texels
 
 // Of the corners of a triangle. The mesh must be valid and have uvs.
 inline std::array<glm::vec2, 3> uvsOf(const Mesh& mesh, std::size_t triangle)
@@ -55,14 +55,14 @@ void visitTexels(const std::array<glm::vec2, 3>& uvs, int width, int height, con
     for (int y = static_cast<int>(first(a.y, b.y, c.y)); y <= endY; ++y) {
         for (int x = static_cast<int>(first(a.x, b.x, c.x)); x <= endX; ++x) {
             const glm::dvec2 centre(x + 0.5, y + 0.5);
-            const double e0 = detail::edgeFunction(b, c, centre);
-            const double e1 = detail::edgeFunction(c, a, centre);
-            const double e2 = detail::edgeFunction(a, b, centre);
+            const double e0 = texels::edgeFunction(b, c, centre);
+            const double e1 = texels::edgeFunction(c, a, centre);
+            const double e2 = texels::edgeFunction(a, b, centre);
             const bool isInside = (e0 >= 0 && e1 >= 0 && e2 >= 0) || (e0 <= 0 && e1 <= 0 && e2 <= 0);
             const double sum = e0 + e1 + e2;
             if (!isInside || sum == 0) continue;
             const std::array<double, 3> weights = {e0 / sum, e1 / sum, e2 / sum};
-            visit(detail::wrapped(x, width), height - 1 - detail::wrapped(y, height), weights);
+            visit(texels::wrapped(x, width), height - 1 - texels::wrapped(y, height), weights);
         }
     }
 }

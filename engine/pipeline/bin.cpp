@@ -5,7 +5,7 @@
 
 #include "pipeline/edge_function.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -106,4 +106,4 @@ void sortByTile(TriangleChunk& chunk, const TileGrid& grid)
     chunk.binStart.pop_back();
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

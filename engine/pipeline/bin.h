@@ -4,7 +4,7 @@
 
 #include "pipeline/geometry.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 struct TileGrid
 {
@@ -20,4 +20,4 @@ void findTiles(TriangleChunk& chunk, std::uint32_t first, const TileGrid& grid, 
 // Sorts what findTiles() found by tile.
 void sortByTile(TriangleChunk& chunk, const TileGrid& grid);
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

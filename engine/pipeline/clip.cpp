@@ -6,7 +6,7 @@
 
 #include "pipeline/limits.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -173,4 +173,4 @@ std::uint32_t clippedVertex(const DrawGeometry& draw, const std::array<std::uint
     return kClippedVertex | static_cast<std::uint32_t>(first);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -7,7 +7,7 @@
 
 #include "pipeline/geometry.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 struct ClipVertex
 {
@@ -38,4 +38,4 @@ bool clipLine(const glm::vec4 ends[2], const ClipLimits& limits, ClipVertex out[
 std::uint32_t clippedVertex(const DrawGeometry& draw, const std::array<std::uint32_t, 3>& corners,
                             const ClipVertex& vertex, TriangleChunk& chunk);
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -10,7 +10,7 @@
 #include "leave_out.h"
 #include "pipeline/output_merger.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -130,7 +130,7 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
 }  // namespace
 
 [[gnu::flatten]] void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
-                 const TriangleChunk& chunk, Tile& tile, Statistics& statistics)
+                                  const TriangleChunk& chunk, Tile& tile, Statistics& statistics)
 {
     const BlockState state(draw, tile);
     const bool runsProgram = tile.hasColor() || state.discards;
@@ -162,7 +162,8 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), shaded, batch, corners.data());
         if (state.discards) testLate(state, triangle, group[0], tile);
         if (!tile.hasColor()) continue;
-        withFormat(tile.colorFormat(), [&]<Format format>() { mergeBlocks<format>(shaded, state.blend, tile, counts); });
+        withFormat(tile.colorFormat(),
+                   [&]<Format format>() { mergeBlocks<format>(shaded, state.blend, tile, counts); });
     }
     shading.activeLanes = kAllLanes;
     statistics.blocksShaded += counts.blocks;
@@ -172,4 +173,4 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
     statistics.invalidColors += counts.invalid;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

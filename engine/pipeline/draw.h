@@ -21,7 +21,7 @@
 #include "pipeline/statistics.h"
 #include "pipeline/tile.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 struct Draw
 {
@@ -45,4 +45,4 @@ void shadeVertices(const Draw& draw, std::uint32_t first, std::uint32_t count);
 void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
                  const TriangleChunk& chunk, Tile& tile, Statistics& statistics);
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

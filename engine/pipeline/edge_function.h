@@ -11,7 +11,7 @@
 #include "lanes/int.h"
 #include "pipeline/geometry.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 struct EdgeFunction
 {
@@ -83,4 +83,4 @@ inline RectangleLanes sampleBounds(const Int (&x)[3], const Int (&y)[3], const R
             min(((maxX - half) >> kSubpixelBits) + 1, clip.x1), min(((maxY - half) >> kSubpixelBits) + 1, clip.y1)};
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -7,7 +7,7 @@
 #include "pipeline/framebuffer.h"
 #include "texture/color_space.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // FLOAT -> UNORM8: NaN to 0, clamp, scale, round half up (D3D 11.3, 3.2.3.6).
 inline Int toUnorm8(Float c)
@@ -83,8 +83,8 @@ float4 decodeColor(const std::array<Int, static_cast<std::size_t>(wordsPerPixel(
     if constexpr (format == Format::rgba8) return unpackRgba8(words[0]);
     if constexpr (format == Format::rgba8Srgb) return decodeSrgb8(words[0]);
     if constexpr (format == Format::rgba16f)
-        return {fromHalf(words[0] & 0xffff), fromHalf(shiftRightLogical(words[0], 16)),
-                fromHalf(words[1] & 0xffff), fromHalf(shiftRightLogical(words[1], 16))};
+        return {fromHalf(words[0] & 0xffff), fromHalf(shiftRightLogical(words[0], 16)), fromHalf(words[1] & 0xffff),
+                fromHalf(shiftRightLogical(words[1], 16))};
     if constexpr (format == Format::rgba32f)
         return {asFloat(words[0]), asFloat(words[1]), asFloat(words[2]), asFloat(words[3])};
     if constexpr (format == Format::r32f || format == Format::depth32f)
@@ -118,4 +118,4 @@ constexpr bool isUnorm(Format format)
     return format == Format::rgba8 || format == Format::rgba8Srgb;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

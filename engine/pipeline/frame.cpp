@@ -12,12 +12,13 @@
 #include "pipeline/setup.h"
 #include "pipeline/vertex.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
-// Cuts all draws' items into chunks of at most `size` items. A chunk may span several small draws. Every piece begins at
-// a multiple of kLanes of its draw, whatever other draws there are: vertices have the same neighbours in every frame.
+// Cuts all draws' items into chunks of at most `size` items. A chunk may span several small draws. Every piece begins
+// at a multiple of kLanes of its draw, whatever other draws there are: vertices have the same neighbours in every
+// frame.
 template <class CountOf>
 std::vector<std::vector<Piece>> cut(const std::vector<Draw>& draws, std::uint32_t size, CountOf countOf)
 {
@@ -93,8 +94,7 @@ void Frame::clear(const glm::vec4& color, float depth)
 
 void Frame::clearColor(const glm::vec4& color)
 {
-    storage->clear.color = {finite(color.x, 0.0f), finite(color.y, 0.0f), finite(color.z, 0.0f),
-                            finite(color.w, 0.0f)};
+    storage->clear.color = {finite(color.x, 0.0f), finite(color.y, 0.0f), finite(color.z, 0.0f), finite(color.w, 0.0f)};
 }
 
 void Frame::clearDepth(float depth)
@@ -170,9 +170,8 @@ Statistics Frame::Storage::run()
         // A chunk that was too much for the room is drawn as far as it goes.
         if (!isWhole && chunks[part.last].isReady) ++part.last;
         if (!isWhole) keepDiscarded(part);
-        workers.run(grid.count(), [&](int tile, int worker) {
-            drawTile(part, tile, perWorker[static_cast<std::size_t>(worker)]);
-        });
+        workers.run(grid.count(),
+                    [&](int tile, int worker) { drawTile(part, tile, perWorker[static_cast<std::size_t>(worker)]); });
         if (isWhole) break;
         startNextPart(part);
     }
@@ -360,4 +359,4 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
     }
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -7,12 +7,12 @@
 
 #include "pipeline/draw.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 struct FrameOptions
 {
-    int threads = 0;                  // 0: one per processor; at most 256
-    int tileSize = kDefaultTileSize;  // 16, 32, 64 or 128 pixels
+    int threads = 0;                       // 0: one per processor; at most 256
+    int tileSize = kDefaultTileSize;       // 16, 32, 64 or 128 pixels
     std::uint32_t maxBinned = kMaxBinned;  // pairs of a triangle and a tile kept at a time (limits.h)
 };
 
@@ -25,8 +25,8 @@ public:
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
 
-    // The target's content before the first draw. What is not cleared is drawn onto as it is; depth that the target does
-    // not keep is 1 then. Colour is linear.
+    // The target's content before the first draw. What is not cleared is drawn onto as it is; depth that the target
+    // does not keep is 1 then. Colour is linear.
     void clear(const glm::vec4& color, float depth = 1.0f);
     void clearColor(const glm::vec4& color);
     void clearDepth(float depth = 1.0f);
@@ -65,8 +65,8 @@ public:
     // Why the first draw that is left out is left out; empty where all of them are recorded.
     const std::string& problem() const;
 
-    // Runs what was recorded, on the target as it is then, and says what happened. A frame that clears is the same every
-    // time; another one draws onto what the last run left.
+    // Runs what was recorded, on the target as it is then, and says what happened. A frame that clears is the same
+    // every time; another one draws onto what the last run left.
     Statistics run();
 
     int drawCount() const;
@@ -84,4 +84,4 @@ private:
     std::unique_ptr<Storage> storage;
 };
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

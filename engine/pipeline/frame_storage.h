@@ -8,7 +8,7 @@
 #include "pipeline/frame.h"
 #include "pipeline/workers.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // A piece of front-end work: some vertices or primitives of one draw.
 struct Piece
@@ -108,4 +108,4 @@ struct Frame::Storage
     } poison;
 };
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -12,7 +12,7 @@
 #include "pipeline/limits.h"
 #include "pipeline/render_state.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // An array that is grown but never filled: what a frame writes before it reads, and the next frame reuses.
 template <class T>
@@ -90,8 +90,8 @@ struct DrawGeometry
     std::uint32_t verticesPerInstance = 0;
     std::uint32_t firstVertex = 0;  // the mesh's vertex that an instance begins with
 
-    std::uint32_t componentCount = 0;   // words to interpolate per vertex
-    std::uint32_t componentStride = 0;  // and from one vertex to the next: a multiple of four
+    std::uint32_t componentCount = 0;               // words to interpolate per vertex
+    std::uint32_t componentStride = 0;              // and from one vertex to the next: a multiple of four
     const Interpolation* interpolations = nullptr;  // componentCount of them
     bool hasFlat = false;                           // any of them
 
@@ -172,4 +172,4 @@ inline const std::uint32_t* cornersOf(const DrawGeometry& draw, std::uint32_t fi
     return room;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

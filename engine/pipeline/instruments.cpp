@@ -5,7 +5,7 @@
 
 #include "pipeline/frame_storage.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -124,4 +124,4 @@ float shadeAlone(const Frame& frame, std::uint64_t blocks)
     return sum;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

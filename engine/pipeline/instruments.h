@@ -6,7 +6,7 @@
 
 #include "pipeline/frame.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // How many components (words) a draw interpolates, and what its vertex program hands on, as the table that Direct3D's
 // compiler prints (hlsl/signature.h). Draws are counted from 0 to frame.drawCount() - 1; an error for others.
@@ -24,4 +24,4 @@ Expected<bool> dependsOn(Frame& frame, int draw, int component);
 // theirs. After run(); nothing happens where there is nothing to draw. Returns a sum of the results.
 float shadeAlone(const Frame& frame, std::uint64_t blocks);
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -13,7 +13,7 @@
 #include "pipeline/edge_function.h"
 #include "pipeline/triangle_batch.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // One number for all lanes, as it is read fastest: SSE2 has no instruction that spreads a number while it is loaded.
 using Broadcast = std::conditional_t<kLanes == 4, Float, float>;
@@ -89,7 +89,8 @@ public:
         for (int k = 0; k < 3; ++k) invW[k] = batch->invW[k][lane];
     }
 
-    // Of a block with these edge values. `covered` lanes lie in the triangle. What is not read, the compiler leaves out.
+    // Of a block with these edge values. `covered` lanes lie in the triangle. What is not read, the compiler leaves
+    // out.
     BlockWeights of(const Float (&edge)[3], unsigned covered) const
     {
         BlockWeights w;
@@ -212,4 +213,4 @@ Interpolators interpolate(const TriangleWeights& triangle, const CornerComponent
     return result;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

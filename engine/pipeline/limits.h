@@ -37,9 +37,9 @@ inline constexpr int kMaxTileSize = 128;
 inline constexpr std::uint32_t kVerticesPerChunk = 2048;
 inline constexpr std::uint32_t kTrianglesPerChunk = 4096;
 
-// Pairs of a triangle and a tile that a frame keeps at a time, 12 bytes each: 48 MiB. A frame with more is run in parts,
-// one after the other, with the same result. They are counted after every so many primitives, so each thread may go
-// beyond the limit by as many times the number of tiles.
+// Pairs of a triangle and a tile that a frame keeps at a time, 12 bytes each: 48 MiB. A frame with more is run in
+// parts, one after the other, with the same result. They are counted after every so many primitives, so each thread may
+// go beyond the limit by as many times the number of tiles.
 inline constexpr std::uint32_t kMaxBinned = 1u << 22;
 inline constexpr std::uint32_t kPrimitivesPerCount = 256;
 

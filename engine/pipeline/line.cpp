@@ -8,7 +8,7 @@
 #include "pipeline/edge_function.h"
 #include "pipeline/viewport_transform.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -118,4 +118,4 @@ void setUpLines(const DrawGeometry& draw, std::uint32_t first, std::uint32_t cou
     }
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -10,11 +10,11 @@
 #include "pipeline/geometry.h"
 #include "pipeline/statistics.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // Sets up lines first ... first + count - 1 of a draw and appends their triangles to chunk.triangles. A line counts as
 // one primitive in the statistics. A line whose ends snap to the same point has no pixels.
 void setUpLines(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, TriangleChunk& chunk,
                 Statistics& statistics);
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -6,7 +6,7 @@
 #include "pipeline/render_state.h"
 #include "pipeline/tile.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 inline Mask compareDepth(Compare compare, Float z, Float stored)
 {
@@ -105,4 +105,4 @@ void mergeColor(Blend blend, std::int32_t* stored, float4 color, Mask live)
     for (std::size_t i = 0; i < count; ++i) select(live, words[i], old[i]).store(stored + i * kLanes);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

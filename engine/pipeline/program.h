@@ -12,7 +12,7 @@
 #include "pipeline/interpolate.h"
 #include "texture/shading_scope.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // A fragment program that takes this as its second parameter may throw pixels away: discard(alpha < 0.5f).
 class Discard
@@ -33,8 +33,9 @@ struct VertexLanes
     Float components[kMaxComponents];
 };
 
-// A block of pixels that a fragment program runs on. Lanes lie here as plain numbers, to be loaded and stored one vector
-// at a time: g++ 12 would copy a struct of them in smaller pieces, which the next load of a whole vector has to wait for.
+// A block of pixels that a fragment program runs on. Lanes lie here as plain numbers, to be loaded and stored one
+// vector at a time: g++ 12 would copy a struct of them in smaller pieces, which the next load of a whole vector has to
+// wait for.
 struct ShadedBlock
 {
     alignas(Float) float edge[3][kLanes];   // the edge functions at its pixels, if there is anything to interpolate
@@ -101,8 +102,8 @@ template <class VertexData, class Interpolators, class VertexProgram>
 }
 
 template <class Interpolators, class FragmentProgram, int components>
-void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle,
-                const TriangleEdges& edges, const CornerComponents<components>& corners, ShadedBlock& block)
+void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle, const TriangleEdges& edges,
+                const CornerComponents<components>& corners, ShadedBlock& block)
 {
     // Where nothing is interpolated, SV_POSITION alone may want to know them: the compiler sees whether it does.
     const auto edgeOf = [&](int k) {
@@ -249,4 +250,4 @@ inline constexpr Programs kPrograms = {
 
 }  // namespace detail
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -5,7 +5,7 @@
 #include "lanes/int.h"
 #include "pipeline/edge_function.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -138,4 +138,4 @@ CoveredBlock* coverLarge(const TriangleBatch& batch, int triangle, const Rectang
     return out;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -5,7 +5,7 @@
 
 #include "pipeline/triangle_batch.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // A block with at least one covered pixel.
 struct CoveredBlock
@@ -20,4 +20,4 @@ struct CoveredBlock
 // for every triangle, and for one more.
 CoveredBlock* rasterise(const TriangleBatch& batch, const Rectangle& clip, CoveredBlock* out);
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

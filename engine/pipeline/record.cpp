@@ -5,7 +5,7 @@
 
 #include "pipeline/draw.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -24,7 +24,8 @@ Expected<StreamView> findStream(const std::vector<StreamView>& streams, const Fi
     });
     const std::string name = "draw of mesh '" + mesh.name + "': ";
     if (found == streams.end()) {
-        return fail(name + "it has no " + nameOf(field) + ", which VertexData asks for; give the mesh that stream, or take the field out");
+        return fail(name + "it has no " + nameOf(field) +
+                    ", which VertexData asks for; give the mesh that stream, or take the field out");
     }
     if (found->isInteger != field.isInteger) {
         return fail(name + "its " + nameOf(field) + " holds " + (found->isInteger ? "integers" : "floats") +
@@ -33,7 +34,8 @@ Expected<StreamView> findStream(const std::vector<StreamView>& streams, const Fi
     const std::size_t wanted = found->perInstance ? instances : vertices;
     if (found->count < wanted) {
         return fail(name + "its " + nameOf(field) + " holds " + std::to_string(found->count) + " elements for " +
-                    std::to_string(wanted) + (found->perInstance ? " instances" : " vertices") + "; give each of them one");
+                    std::to_string(wanted) + (found->perInstance ? " instances" : " vertices") +
+                    "; give each of them one");
     }
     return *found;
 }
@@ -75,7 +77,8 @@ Expected<Draw> makeDraw(const Programs& programs, ErasedProgram vertexProgram, E
     }
     for (const Field& field : programs.interpolators) {
         if (!field.isPosition)
-            draw.interpolations.insert(draw.interpolations.end(), static_cast<std::size_t>(field.components), field.interpolation);
+            draw.interpolations.insert(draw.interpolations.end(), static_cast<std::size_t>(field.components),
+                                       field.interpolation);
     }
 
     DrawGeometry& g = draw.geometry;
@@ -108,4 +111,4 @@ Expected<Draw> makeDraw(const Programs& programs, ErasedProgram vertexProgram, E
     return draw;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

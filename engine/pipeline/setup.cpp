@@ -10,7 +10,7 @@
 #include "pipeline/edge_function.h"
 #include "pipeline/viewport_transform.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -217,8 +217,8 @@ void clipAndSetUp(const DrawGeometry& draw, const TriangleLanes& t, int lane, Tr
         const float(&w)[3] = polygon[i].weight;
         const int corner = w[0] == 1.0f ? 0 : w[1] == 1.0f ? 1 : w[2] == 1.0f ? 2 : -1;
         const bool kept = corner >= 0 && (corner == 0 || i > 0 || !draw.hasFlat);
-        vertex[i] = kept ? vertexOf(corner)
-                         : clippedVertex(draw, {vertexOf(0), vertexOf(1), vertexOf(2)}, polygon[i], chunk);
+        vertex[i] =
+            kept ? vertexOf(corner) : clippedVertex(draw, {vertexOf(0), vertexOf(1), vertexOf(2)}, polygon[i], chunk);
     }
 
     // The fan (0, i + 1, i + 2): one triangle a lane, and at most eight of them.
@@ -283,4 +283,4 @@ void setUpTriangles(const DrawGeometry& draw, std::uint32_t first, std::uint32_t
     }
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

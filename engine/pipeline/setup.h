@@ -5,10 +5,10 @@
 #include "pipeline/geometry.h"
 #include "pipeline/statistics.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // Sets up triangles first ... first + count - 1 of a draw and appends the survivors to chunk.triangles.
 void setUpTriangles(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, TriangleChunk& chunk,
                     Statistics& statistics);
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -6,7 +6,7 @@
 
 #include "pipeline/format.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -203,7 +203,8 @@ void clearRectangle(const TargetMemory& target, const Rectangle& pixels, const C
         if (target.words[i] == nullptr || !clearValue(target.attachments[i], clear, value)) continue;
         const auto words = static_cast<std::size_t>(wordsPerPixel(target.attachments[i].format));
         for (int y = inside.y0; y < inside.y1; ++y) {
-            std::uint32_t* row = target.words[i] + (static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(inside.x0)) * words;
+            std::uint32_t* row =
+                target.words[i] + (static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(inside.x0)) * words;
             if (words == 1) {
                 std::fill_n(row, count, static_cast<std::uint32_t>(value[0]));
                 continue;
@@ -213,4 +214,4 @@ void clearRectangle(const TargetMemory& target, const Rectangle& pixels, const C
     }
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -10,7 +10,7 @@
 #include "pipeline/framebuffer.h"
 #include "pipeline/geometry.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // What a depth test can know about a block without looking at its pixels. Conservative: some pixel may be nearer to the
 // other bound, none lies outside.
@@ -76,7 +76,8 @@ private:
 
         std::int32_t* at(int block) const
         {
-            return words.get() + static_cast<std::size_t>(block) * static_cast<std::size_t>(kLanes * wordsPerPixel(format));
+            return words.get() +
+                   static_cast<std::size_t>(block) * static_cast<std::size_t>(kLanes * wordsPerPixel(format));
         }
     };
 
@@ -98,4 +99,4 @@ void packColor(const glm::vec4& color, Format format, std::int32_t (&words)[4]);
 // Clears the part of a rectangle that lies in the target, without a tile in between: where nothing is drawn.
 void clearRectangle(const TargetMemory& target, const Rectangle& pixels, const Clear& clear);
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

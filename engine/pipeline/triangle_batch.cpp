@@ -6,7 +6,7 @@
 #include "lanes/double.h"
 #include "pipeline/edge_function.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -110,4 +110,4 @@ void TriangleBatch::set(std::span<const Triangle* const> triangles, const Rectan
     setDepth(*this, z);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

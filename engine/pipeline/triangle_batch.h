@@ -8,7 +8,7 @@
 #include "lanes/float.h"
 #include "pipeline/geometry.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 struct TriangleBatch
 {
@@ -33,4 +33,4 @@ struct TriangleBatch
     Float nearest, farthest;         // the corners' depths, within 0 ... 1
 };
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -5,7 +5,7 @@
 #include "pipeline/draw.h"
 #include "pipeline/viewport_transform.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
@@ -36,7 +36,8 @@ void readStream(const StreamView& stream, const std::uint32_t* element, std::uin
     const auto components = static_cast<std::size_t>(stream.components);
     // Four words are read of each, if the last one's lie within the stream.
     const std::uint32_t last = *std::max_element(element, element + count);
-    if (components >= 2 && (last + std::size_t{1}) * components + (components == 3 ? 1 : 0) <= stream.count * components) {
+    if (components >= 2 &&
+        (last + std::size_t{1}) * components + (components == 3 ? 1 : 0) <= stream.count * components) {
         const std::byte* address[kLanes];
         for (std::uint32_t i = 0; i < kLanes; ++i)
             address[i] = reinterpret_cast<const std::byte*>(stream.words + element[i < count ? i : 0] * components);
@@ -64,7 +65,8 @@ void storeComponents(const DrawGeometry& draw, std::uint32_t first, std::uint32_
     const std::size_t stride = draw.componentStride;
     for (std::size_t c = 0; c < draw.componentCount; c += 4) {
         Int words[4];
-        for (std::size_t k = 0; k < 4; ++k) words[k] = asInt(components[std::min<std::size_t>(c + k, draw.componentCount - 1)]);
+        for (std::size_t k = 0; k < 4; ++k)
+            words[k] = asInt(components[std::min<std::size_t>(c + k, draw.componentCount - 1)]);
         storeWords(draw.components + first * stride + c, stride * sizeof(float), count, words);
     }
 }
@@ -133,4 +135,4 @@ void projectVertices(const DrawGeometry& draw, std::uint32_t first, std::uint32_
     for (std::uint32_t i = 0; i < count; ++i) draw.codes[first + i] = static_cast<std::uint16_t>(code[i]);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -6,7 +6,7 @@
 #include "mesh/vertex_stream.h"
 #include "pipeline/geometry.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // Elements of up to kLanes vertices, component by component: lane i takes element[i]. What the stream does not hold is
 // (0, 0, 0, 1).
@@ -20,4 +20,4 @@ void projectVertices(const DrawGeometry& draw, std::uint32_t first, std::uint32_
 // which is how triangles will ask for them.
 void storeComponents(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, const Float* components);
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -5,7 +5,7 @@
 #include "hlsl/types.h"
 #include "pipeline/geometry.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 struct ScreenLanes
 {
@@ -56,4 +56,4 @@ private:
     }
 };
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -6,7 +6,7 @@
 #include "hlsl/derivatives.h"
 #include "hlsl/intrinsics.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // The gradients of u and v along the surface, per unit of position, and the normal: the columns of the matrix that
 // takes a normal of the map to the space of `position` and `normal`. They are longer the more often the texture
@@ -53,4 +53,4 @@ inline float3 perturb_normal(const float3& bump, const float3& normal, const flo
     return select(exists & (dot(perturbed, perturbed) > 0.0f), perturbed, normal);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

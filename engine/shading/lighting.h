@@ -5,7 +5,7 @@
 
 #include "hlsl/intrinsics.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // A light as it arrives at a point.
 struct UnityLight
@@ -117,4 +117,4 @@ inline float4 UNITY_BRDF_PBS_Exact(const float3& diffColor, const float3& specCo
     return float4((diffuse + detail::fresnel(specColor, LdotH) * specularTerm) * light.color, 1.0f);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

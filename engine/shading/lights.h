@@ -11,7 +11,7 @@
 #include "mesh/bounds.h"
 #include "shading/lighting.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 struct DirectionalLight
 {
@@ -172,4 +172,4 @@ inline SphericalHarmonics gradientSurroundings(const glm::vec3& sky, const glm::
     return sh;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -5,7 +5,7 @@
 
 #include "hlsl/intrinsics.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace detail {
 
@@ -83,4 +83,4 @@ inline float3 BlendNormalsRNM(const float3& n1, const float3& n2)
     return normalize(select(below, float3(n2.x, -n2.y, -n2.z), t * scale - u));
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -7,7 +7,7 @@
 
 #include "hlsl/intrinsics.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 struct ObjectTransform
 {
@@ -70,4 +70,4 @@ inline float3 UnityObjectToWorldDir(const ObjectTransform& object, const float3&
     return normalize(mul(upper3x3(object.worldFromObject), direction));
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -6,7 +6,7 @@
 
 #include "hlsl/intrinsics.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // cross(normal, tangent), turned to point along +v. binormalSign is tangent.w, worldTransformSign is
 // unity_WorldTransformParams.w: -1 for an object that is mirrored. Both are -1 or +1; of anything else only the sign
@@ -46,4 +46,4 @@ inline float3 SafeTangent(const float3& normal, const float3& tangent)
     return normalize(select(dot(flat, flat) > 1e-6f, flat, basis));
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

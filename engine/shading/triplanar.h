@@ -12,7 +12,7 @@
 #include "hlsl/intrinsics.h"
 #include "texture/sampler.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // One value for each plane, named by its projection axis.
 template <class T>
@@ -139,4 +139,4 @@ float3 TriplanarNormal(const Triplanar<float3>& bumps, const float3& normal, con
                     weights);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -8,7 +8,7 @@
 
 #include "lanes/float.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // What a texture looks like outside 0..1: repeated, repeated with every other copy mirrored, its edge texels drawn out,
 // or one colour.
@@ -92,4 +92,4 @@ inline Int nearestPosition(AddressMode mode, Float reduced, const TextureSide& s
     return clamp(folded, 1, side.texels);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -38,7 +38,7 @@ constexpr std::uint16_t toUnorm16(double value)
 
 }  // namespace
 
-constexpr std::array<float, 256> detail::kSrgbToLinear = [] {
+constexpr std::array<float, 256> color_space::kSrgbToLinear = [] {
     std::array<float, 256> table{};
     for (std::size_t code = 0; code < 256; ++code)
         table[code] = static_cast<float>(decode(static_cast<double>(code) / 255.0));

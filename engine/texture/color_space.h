@@ -20,7 +20,7 @@ enum class ColorSpace
 // The linear value, in 0..1, of an encoded one in 0..1. Relative error below 1e-15.
 double decodeSrgb(double encoded);
 
-namespace detail {
+namespace color_space {
 extern const std::array<float, 256> kSrgbToLinear;
 }
 
@@ -28,7 +28,7 @@ extern const std::array<float, 256> kSrgbToLinear;
 // srgbToLinear(255) is 1.
 inline float srgbToLinear(std::uint8_t code)
 {
-    return detail::kSrgbToLinear[code];
+    return color_space::kSrgbToLinear[code];
 }
 
 // The same in 16 bits, rounded to nearest: what a texture holds. Half a step of 1/65535 is 0.025 of an 8-bit sRGB code

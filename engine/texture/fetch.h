@@ -13,7 +13,7 @@
 #include "texture/address.h"
 #include "texture/mip_chain.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 namespace detail {
 
@@ -271,4 +271,4 @@ inline constexpr bool kIsOpaque = false;
 template <class Fetch>
 inline constexpr bool kIsOpaque<Opaque<Fetch>> = true;
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

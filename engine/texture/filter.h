@@ -8,12 +8,12 @@
 
 #include <bit>
 
-#include "texture/shading_scope.h"
 #include "leave_out.h"
 #include "texture/fetch.h"
 #include "texture/sampler.h"
+#include "texture/shading_scope.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // Levels of detail are fixed point with 8 bits of fraction, D3D's least (7.18.10).
 inline constexpr int kLodBits = 8;
@@ -219,4 +219,4 @@ template <class Fetch, class Modes>
     return sampleSeveralLevels<Fetch>(place, level, fraction);
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -6,7 +6,7 @@
 #include "hlsl/types.h"
 #include "lanes/math.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // The square of the longer of the two derivatives. NaN where any of the four numbers is NaN.
 inline Float longestSquare(const float2& dX, const float2& dY)
@@ -65,4 +65,4 @@ inline AnisotropicFootprint anisotropicFootprint(const float2& dX, const float2&
     return footprint;
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

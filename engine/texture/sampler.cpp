@@ -6,12 +6,12 @@
 
 #include "hlsl/derivatives.h"
 #include "hlsl/intrinsics.h"
-#include "texture/shading_scope.h"
 #include "leave_out.h"
 #include "texture/filter.h"
 #include "texture/level_of_detail.h"
+#include "texture/shading_scope.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 namespace {
 
 inline const Texture& textureOf(const sampler2D& s)
@@ -411,4 +411,4 @@ float4 texelSize(const sampler2D& s)
     return broadcast(textureOf(s).texelSize());
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

@@ -10,7 +10,7 @@
 #include "texture/address.h"
 #include "texture/texture.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 // nearest: one texel of the nearest mip level. bilinear: between 2x2 texels of the nearest mip level.
 // trilinear: between two of those, of the two nearest levels.
@@ -97,4 +97,4 @@ inline float2 TRANSFORM_TEX(const float2& uv, const float4& st)
     return {uv.x * st.x + st.z, uv.y * st.y + st.w};
 }
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

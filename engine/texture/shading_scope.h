@@ -5,7 +5,7 @@
 #include "lanes/mask.h"
 #include "texture/fetch_counters.h"
 
-namespace relief {
+namespace relief::inline RELIEF_WIDTH {
 
 struct Shading
 {
@@ -32,4 +32,4 @@ private:
     Shading outer;
 };
 
-}  // namespace relief
+}  // namespace relief::inline RELIEF_WIDTH

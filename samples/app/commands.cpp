@@ -83,8 +83,7 @@ Expected<void> hash(const RenderOptions& options, int tileSize)
     if (!size) return tl::unexpected(size.error());
     const Expected<PreparedStage> prepared = prepare(options);
     if (!prepared) return tl::unexpected(prepared.error());
-    Expected<Framebuffer> target =
-        Framebuffer::create(size->width, size->height, Format::rgba32f, Store::keep);
+    Expected<Framebuffer> target = Framebuffer::create(size->width, size->height, Format::rgba32f, Store::keep);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = options.threads, .tileSize = tileSize});
     prepared->record(frame, size->width, size->height);

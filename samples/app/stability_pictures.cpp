@@ -73,8 +73,8 @@ Panel drawn(const Mesh& mesh, const Fragment& fragment, const glm::vec3& from, f
     Framebuffer target = *Framebuffer::create(kSide, kSide, Format::rgba8Srgb);
     Frame frame(target);
     frame.clear({0.02f, 0.025f, 0.03f, 1.0f});
-    frame.draw(
-        mesh, Vertex{ObjectTransform(clipFromView(camera, 1.0f) * viewFromWorld(camera), glm::mat4(1.0f))}, fragment, state);
+    frame.draw(mesh, Vertex{ObjectTransform(clipFromView(camera, 1.0f) * viewFromWorld(camera), glm::mat4(1.0f))},
+               fragment, state);
     frame.run();
     return panelOf(target);
 }

@@ -98,9 +98,10 @@ void drawPass(const Scene& s, const Object& o, const Light& light)
     const float ambient = s.number("ambient")[0];
     const glm::vec3 sky(0.1f, 0.13f, 0.2f), equator(0.05f), ground(0.02f);
     s.draw(*o.mesh, MyVertexProgram<basePass>{s.object(o.worldFromObject), twoLamps(s.number("vertexLights"))},
-                 MyFragmentProgram<Light, basePass>{
-                     s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos, light,
-                     gradientSurroundings(sky * ambient, equator * ambient, ground * ambient)}, basePass ? kBasePass : kAdditivePass);
+           MyFragmentProgram<Light, basePass>{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
+                                              s.worldSpaceCameraPos, light,
+                                              gradientSurroundings(sky * ambient, equator * ambient, ground * ambient)},
+           basePass ? kBasePass : kAdditivePass);
 }
 
 }  // namespace

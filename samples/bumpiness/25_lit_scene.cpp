@@ -116,12 +116,12 @@ template <bool BINORMAL_PER_FRAGMENT, class Light>
 void drawPass(const Scene& s, const Object& o, const Light& light, const RenderState& pass)
 {
     const ObjectTransform object = s.object(o.worldFromObject);
-    s.draw(*o.mesh,
-                 MyVertexProgram<BINORMAL_PER_FRAGMENT>{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                 MyFragmentProgram<BINORMAL_PER_FRAGMENT, Light>{
-                     s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos, light,
-                     s.mainTex, s.detailTex, s.normalMap, s.detailNormalMap, object.unity_WorldTransformParams,
-                     s.number("bumpScale"), s.number("detailBumpScale")}, pass);
+    s.draw(*o.mesh, MyVertexProgram<BINORMAL_PER_FRAGMENT>{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
+           MyFragmentProgram<BINORMAL_PER_FRAGMENT, Light>{
+               s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos, light, s.mainTex,
+               s.detailTex, s.normalMap, s.detailNormalMap, object.unity_WorldTransformParams, s.number("bumpScale"),
+               s.number("detailBumpScale")},
+           pass);
 }
 
 template <bool BINORMAL_PER_FRAGMENT>

@@ -196,8 +196,8 @@ void Scene::showTangents(const TangentSpaceVisualizer& visualizer) const
     }
 }
 
-// What comes before a draw: notes where the object stands, turns its front faces if its matrix mirrors it, and gives its
-// mesh the uvs and tangents that the vertex program reads.
+// What comes before a draw: notes where the object stands, turns its front faces if its matrix mirrors it, and gives
+// its mesh the uvs and tangents that the vertex program reads.
 const Mesh& Scene::prepare(const Mesh& drawn, std::span<const Field> vertexData, const float4x4* worldFromObject) const
 {
     bool mirrored = false;
@@ -208,9 +208,8 @@ const Mesh& Scene::prepare(const Mesh& drawn, std::span<const Field> vertexData,
     }
     frame.setFrontCounterClockwise(mirrored);
     const auto reads = [vertexData](std::string_view semantic) {
-        return std::any_of(vertexData.begin(), vertexData.end(), [semantic](const Field& field) {
-            return semantic == field.name && field.index == 0;
-        });
+        return std::any_of(vertexData.begin(), vertexData.end(),
+                           [semantic](const Field& field) { return semantic == field.name && field.index == 0; });
     };
     return reads("TANGENT") ? withTangents(drawn) : reads("TEXCOORD") ? withUvs(drawn) : drawn;
 }

@@ -83,9 +83,10 @@ void drawPass(const Scene& s, const float3& ambient, const float3& lightColor0, 
               const RenderState& pass)
 {
     s.draw(s.mesh, vert{s.object(s.objects[0].worldFromObject)},
-                 frag{s.worldSpaceCameraPos, ambient, lightColor0, worldSpaceLightPos0, s.mainTex, s.normalMap,
-                      s.vector("mainTex_ST"), s.vector("bumpMap_ST"), s.vector("color"), s.vector("specColor"),
-                      s.vector("rimColor"), s.number("shininess"), s.number("rimPower"), s.number("glossFromRed")}, pass);
+           frag{s.worldSpaceCameraPos, ambient, lightColor0, worldSpaceLightPos0, s.mainTex, s.normalMap,
+                s.vector("mainTex_ST"), s.vector("bumpMap_ST"), s.vector("color"), s.vector("specColor"),
+                s.vector("rimColor"), s.number("shininess"), s.number("rimPower"), s.number("glossFromRed")},
+           pass);
 }
 
 }  // namespace

@@ -157,8 +157,8 @@ std::shared_ptr<const void> recordManyLights(Frame& frame, int width, int height
         const Bounds bounds = transformed(boundsOf(floor->piece), worldFromObject);
         for (const Lamp& lamp : floor->lamps) {
             if (!lightReaches(lamp.light(), bounds)) continue;
-            frame.draw(floor->piece, vertexProgram,
-                                      OneLightFragmentProgram<PointLight>{eye, lamp.light()}, kAdditivePass);
+            frame.draw(floor->piece, vertexProgram, OneLightFragmentProgram<PointLight>{eye, lamp.light()},
+                       kAdditivePass);
         }
     }
     return floor;

@@ -15,8 +15,8 @@
 #include "command_line.h"
 #include "cost.h"
 #include "first_frame.h"
-#include "twins.h"
 #include "pipeline/workers.h"
+#include "twins.h"
 
 namespace relief::samples {
 

@@ -5,9 +5,9 @@
 
 #include "command_line.h"
 #include "cost.h"
+#include "pipeline/workers.h"
 #include "report.h"
 #include "scalings.h"
-#include "pipeline/workers.h"
 
 namespace relief::samples {
 

@@ -7,8 +7,8 @@
 
 #include "child_process.h"
 #include "many_lights.h"
-#include "scenes.h"
 #include "pipeline/workers.h"
+#include "scenes.h"
 
 namespace relief::benchmarks {
 

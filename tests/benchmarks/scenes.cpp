@@ -141,8 +141,8 @@ std::unique_ptr<SceneData> layers(Frame& frame, int count)
         data->layers.push_back({1.0f - part, {part, 0.5f, 0.25f, 1.0f}});
     }
     for (const Layer& layer : data->layers) {
-        frame.draw(data->mesh, ScreenVertexProgram{layer.depth},
-                                                    ConstantFragmentProgram{broadcast(layer.color)}, RenderState{.cull = Cull::none});
+        frame.draw(data->mesh, ScreenVertexProgram{layer.depth}, ConstantFragmentProgram{broadcast(layer.color)},
+                   RenderState{.cull = Cull::none});
     }
     return data;
 }

@@ -135,8 +135,7 @@ struct Picture
     explicit Picture(const Way& w) : way(w), lights(lightsOver(w.lights, w.height)), mesh(flatGrid(w.cells))
     {
         const Format format = way.bits == 8 ? Format::rgba8 : Format::rgba32f;
-        target =
-            std::make_shared<Framebuffer>(std::move(*Framebuffer::create(kSize, kSize, format, Store::keep)));
+        target = std::make_shared<Framebuffer>(std::move(*Framebuffer::create(kSize, kSize, format, Store::keep)));
         const std::size_t step = way.inPasses ? 1 : lights.size();
         for (std::size_t i = 0; i < lights.size(); i += step) {
             if (i == 0 || way.bits == 16)

@@ -127,10 +127,11 @@ void drawPass(const Scene& s, const Object& o, const Choice& choice, const Light
         return sampler;
     };
     s.draw(*o.mesh, VertexProgram{s.object(o.worldFromObject), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                 FragmentProgram<Light>{choice.lighting, choice.decode, s.vector("tint"), s.number("metallic"),
-                                        s.number("smoothness"), s.worldSpaceCameraPos, light, filtered(s.mainTex),
-                                        filtered(s.detailTex), filtered(s.normalMap), filtered(s.detailNormalMap),
-                                        s.number("bumpScale"), s.number("detailBumpScale")}, pass);
+           FragmentProgram<Light>{choice.lighting, choice.decode, s.vector("tint"), s.number("metallic"),
+                                  s.number("smoothness"), s.worldSpaceCameraPos, light, filtered(s.mainTex),
+                                  filtered(s.detailTex), filtered(s.normalMap), filtered(s.detailNormalMap),
+                                  s.number("bumpScale"), s.number("detailBumpScale")},
+           pass);
 }
 
 // The stage's objects under the stage's sun and lamp.

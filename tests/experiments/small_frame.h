@@ -14,8 +14,7 @@ struct SmallFrame
     Framebuffer target;
     Frame frame;
 
-    SmallFrame(int width, int height, Format format = Format::rgba32f,
-               const FrameOptions& options = {.threads = 1})
+    SmallFrame(int width, int height, Format format = Format::rgba32f, const FrameOptions& options = {.threads = 1})
         : target(std::move(*Framebuffer::create(width, height, format, Store::keep))), frame(target, options)
     {
     }
