@@ -9,5 +9,6 @@
 #include "mesh/obj.h"
 #include "mesh/primitives.h"
 #include "pipeline/frame.h"
+#include "pipeline/save.h"
 #include "texture/image.h"
 #include "texture/sampler.h"

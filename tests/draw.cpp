@@ -2,6 +2,7 @@
 #include "pipeline/draw.h"
 
 #include "pipeline_fixture.h"
+#include "texture/sampler.h"
 
 using namespace fixture;
 
@@ -54,7 +55,7 @@ TEST_CASE("draw: a texture level that is made inside a block is made as anywhere
         MipLevel made(TexelFormat::rgba8, 16 >> level, 16 >> level);
         for (int y = 0; y < made.height(); ++y) {
             for (int x = 0; x < made.width(); x += std::min(kLanes, made.width())) {
-                const float4 c = tex2D({.texture = &source}, float2(laneXs() + x, laneYs() + y) / 16.0f);
+                const float4 c = tex2D({.texture = &source}, float2(Float(laneXs() + x), Float(laneYs() + y)) / 16.0f);
                 for (int i = 0; i < std::min(kLanes, made.width()); ++i) {
                     for (int k = 0; k < 4; ++k)
                         made.texel<std::uint8_t>(x + i, y)[k] = static_cast<std::uint8_t>(c[k][i] * 255.0f);

@@ -530,7 +530,7 @@ namespace {
 template <class Function, class Exact>
 double relativeError(double low, double high, Function function, Exact exact)
 {
-    Error error;
+    UlpError error;
     const auto add = [&](float x, float y) {
         const double e = exact(double{x});
         if (std::abs(e) >= 1.17549435e-38 && std::abs(e) < 3.4e38) error.addRelative(x, y, e);

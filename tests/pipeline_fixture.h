@@ -14,8 +14,10 @@
 
 #include <doctest/doctest.h>
 
+#include "check/hash.h"
 #include "hlsl/derivatives.h"
 #include "pipeline/frame.h"
+#include "pipeline/vertex.h"
 #include "stability.h"
 
 namespace fixture {
@@ -412,14 +414,6 @@ inline std::uint64_t hashBytes(const void* data, std::size_t size, std::uint64_t
 {
     const auto* bytes = static_cast<const unsigned char*>(data);
     for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 1099511628211u;
-    return hash;
-}
-
-inline std::uint64_t hashOf(const Framebuffer& target)
-{
-    std::uint64_t hash = hashBytes(nullptr, 0);
-    for (int i = 0; i < static_cast<int>(target.attachments().size()); ++i)
-        hash = hashBytes(target.words(i).data(), target.words(i).size_bytes(), hash);
     return hash;
 }
 

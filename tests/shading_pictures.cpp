@@ -11,6 +11,7 @@
 #include "shading/object_transform.h"
 #include "shading/tangent_space.h"
 #include "texture/import.h"
+#include "texture/sampler.h"
 
 using namespace fixture;
 

@@ -15,11 +15,6 @@ using namespace relief;
 
 namespace {
 
-glm::vec3 firstLane(const float3& v)
-{
-    return {v.x[0], v.y[0], v.z[0]};
-}
-
 // What a shader makes of v: binormals per vertex, everything interpolated in floats.
 glm::vec3 shaded(const Mesh& mesh, std::size_t triangle, const std::array<double, 3>& weights, glm::vec3 v,
                  BinormalAt binormalAt)

@@ -176,7 +176,7 @@ TEST_CASE("triplanar stages: S-1104 planes without weight are not sampled, and t
 
     for (const char* mesh : {"sphere", "terrain"}) {
         const Picture some = withMethod<triplanar::Whiteout>(mesh), all = withMethod<triplanar::Whiteout, true>(mesh);
-        CHECK(relief::samples::hashOf(some.target) == relief::samples::hashOf(all.target));
+        CHECK(relief::hashOf(some.target) == relief::hashOf(all.target));
         CHECK(all.statistics.fetches.trilinear == 6 * 4 * all.statistics.quadsShaded);
     }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "path.h"
+#include "pipeline/save.h"
 #include "texture/image.h"
 
 namespace relief {
@@ -12,16 +13,6 @@ namespace relief {
 namespace {
 
 // R, G, B, A of each pixel, whatever the order of the bytes in a word is on this machine.
-std::vector<std::uint8_t> bytesOf(const Framebuffer& target)
-{
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(target.color8().size() * 4);
-    for (const std::uint32_t pixel : target.color8()) {
-        for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(pixel >> shift));
-    }
-    return bytes;
-}
-
 // An empty path is the folder where the program runs.
 Expected<void> makeFolder(const std::filesystem::path& folder)
 {
@@ -75,9 +66,7 @@ Expected<void> checkGolden(const Framebuffer& target, const std::string& golden,
 Expected<void> updateGolden(const Framebuffer& target, const std::string& golden)
 {
     if (target.color8().empty()) return fail(golden + ": goldens are 8-bit pictures, the target is not");
-    return makeFolder(pathOf(golden).parent_path()).and_then([&] {
-        return writePng(golden, target.width(), target.height(), bytesOf(target));
-    });
+    return makeFolder(pathOf(golden).parent_path()).and_then([&] { return writePng(golden, target); });
 }
 
 }  // namespace relief

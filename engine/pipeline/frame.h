@@ -48,6 +48,11 @@ public:
                         const RenderState& state = {}, const MeshPart& part = {})
     {
         if constexpr (detail::checkPrograms<VertexProgram, FragmentProgram>()) {
+            if (detail::contractsProducts()) {
+                return record(fail("draw of mesh '" + mesh.name +
+                                   "': its programs are compiled without -ffp-contract=off, and would give other bits "
+                                   "than elsewhere; add that flag (in CMake, link relief_engine, which passes it on)"));
+            }
             return record(makeDraw(detail::kPrograms<VertexProgram, FragmentProgram>, eraseProgram(vertexProgram),
                                    eraseProgram(fragmentProgram), mesh, state, part));
         }

@@ -152,6 +152,15 @@ template <class Interpolators, class FragmentProgram>
 
 // --- what a program must look like; a failure names the sentence that is not met ---
 
+// Whether the compiler joins a product and a sum into one rounding in this file, which would give its programs bits of
+// their own. One for each file, on purpose.
+static inline bool contractsProducts()
+{
+    volatile float one = 1.0f + 0x1p-12f, square = one * one;
+    const float a = one, b = square;
+    return a * a - b != 0.0f;
+}
+
 // The struct that a vertex program takes; void if it is no vertex program.
 template <class Operator>
 struct VertexDataOf

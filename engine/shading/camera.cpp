@@ -7,7 +7,7 @@
 
 #include "lanes/math.h"
 
-namespace relief::inline RELIEF_WIDTH {
+namespace relief {
 
 namespace {
 
@@ -85,4 +85,4 @@ glm::mat4 scaling(const glm::vec3& f)
     return {{f.x, 0, 0, 0}, {0, f.y, 0, 0}, {0, 0, f.z, 0}, {0, 0, 0, 1}};
 }
 
-}  // namespace relief::inline RELIEF_WIDTH
+}  // namespace relief

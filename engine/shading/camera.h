@@ -9,7 +9,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-namespace relief::inline RELIEF_WIDTH {
+namespace relief {
 
 // viewFromWorld of a camera at `position`: +z is forward, towards `target`, and +y as near to `up` as it can be. Where
 // the camera looks along `up`, a horizontal axis takes its place. Not a number where target is position.
@@ -34,4 +34,4 @@ glm::mat4 rotationZ(float degrees);
 glm::mat4 translation(const glm::vec3& offset);
 glm::mat4 scaling(const glm::vec3& factors);
 
-}  // namespace relief::inline RELIEF_WIDTH
+}  // namespace relief

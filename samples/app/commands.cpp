@@ -57,9 +57,8 @@ Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int thr
     Frame frame(*target, {.threads = threads});
     stage.record(frame, size.width, size.height);
     const Statistics statistics = frame.run();
-    const std::span<const std::uint32_t> pixels = target->color8();
-    const Expected<void> written = writePng(
-        path, size.width, size.height, {reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
+    if (!frame.problem().empty()) return fail(frame.problem());
+    const Expected<void> written = writePng(path, *target);
     if (!written) return tl::unexpected(written.error());
     return statistics;
 }

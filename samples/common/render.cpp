@@ -98,26 +98,4 @@ Scene PreparedStage::scene(Frame& frame, int width, int height, const Camera& ca
     return Scene(frame, *log, width, height, camera, *inputs, properties);
 }
 
-std::uint64_t hashOf(const Framebuffer& target)
-{
-    // FNV-1a over 32-bit words. A NaN would be canonical, but none gets into a target.
-    std::uint64_t hash = 14695981039346656037ull;
-    const auto add = [&hash](float number) {
-        const std::uint32_t bits = number != number ? 0x7fc00000u : std::bit_cast<std::uint32_t>(number);
-        hash = (hash ^ bits) * 1099511628211ull;
-    };
-    for (const glm::vec4& color : target.color32f()) {
-        for (int c = 0; c < 4; ++c) add(color[c]);
-    }
-    for (const float depth : target.depth()) add(depth);
-    return hash;
-}
-
-std::string hexadecimal(std::uint64_t hash)
-{
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-    return digits;
-}
-
 }  // namespace relief::samples

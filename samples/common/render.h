@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "check/hash.h"
 #include "common/stage.h"
 #include "common/tangent_space_visualizer.h"
 
@@ -39,12 +40,5 @@ public:
     std::optional<TangentSpaceVisualizer> tangentLines;  // over the picture, for every mesh that was drawn
     std::unique_ptr<SceneLog> log;                       // of the last record()
 };
-
-// A 64-bit hash of the float colours and the depths of a target of format rgba32f that keeps its depth: one number that
-// is the same on every machine, for any number of threads and lanes and any tile size.
-std::uint64_t hashOf(const Framebuffer& target);
-
-// 16 hexadecimal digits.
-std::string hexadecimal(std::uint64_t hash);
 
 }  // namespace relief::samples
