@@ -96,7 +96,7 @@ TEST_CASE("format: targets of depth alone and of colour alone")
     REQUIRE(second.draw(mesh, FromClip{}, Value{}, kDepthTested).has_value());  // nothing to test against
     second.run();
     CHECK(pixelsNotEqualTo(picture, 1.0f) == 0);
-    CHECK_FALSE(Framebuffer::create(4, 4, {}).has_value());
+    CHECK_FALSE(Framebuffer::create(4, 4, std::vector<Attachment>{}).has_value());
     CHECK_FALSE(Framebuffer::create(4, 4, {{Format::rgba8}, {Format::rgba8}}).has_value());
 }
 

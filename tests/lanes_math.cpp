@@ -593,7 +593,7 @@ TEST_CASE("sinh, cosh and tanh: relative errors below 2e-7, 1.6e-7 and 2e-7, odd
 
 TEST_CASE("tan: error below 2e-7 (1 + tan^2)")
 {
-    Error error;
+    UlpError error;
     for (const double end : {1.0, 20.0, 8192.0}) {
         evaluate(
             Range(-end, end, 1000000 / kStride), [](Float x) { return tan(x); },

@@ -266,8 +266,8 @@ Mesh randomMesh(Numbers& number)
     Source& source = number.source;
     Mesh mesh;
     const int vertices = source.chance(20) ? 0 : source.between(1, 24);
-    const auto length = [&] {  // streams may be missing or too short
-        return static_cast<std::size_t>(source.chance(8) ? source.between(0, vertices) : vertices);
+    const auto length = [&] {  // streams may be missing or too short: then their draw is left out
+        return static_cast<std::size_t>(source.chance(60) ? source.between(0, vertices) : vertices);
     };
     const float reach = source.chance(3) ? 30.0f : 2.0f;
     for (int i = 0; i < vertices; ++i) mesh.positions.push_back({number(reach), number(reach), number() * 0.6f + 0.5f});

@@ -77,7 +77,7 @@ constexpr Case kCases[] = {
     {"S-405", "one corner's attribute NaN, infinite, 1e38", "spreads to neighbours", "that triangle's pixels alone, replaced and counted", kTested},
     {"S-406", "subnormal attributes", "flushed to 0", "kept", kTested},
     {"S-407", "w from 1e-30 to 1e38", "0/0", "off by at most 8 * 2^-24", kTested},
-    {"S-408", "attributes that are not interpolated", "interpolated constants change", "the bits of a corner", "every attribute is interpolated; one that is equal at all corners keeps its bits (S-402)"},
+    {"S-408", "attributes that are not interpolated", "interpolated constants change", "the bits of a corner", kTested},
     {"S-409", "opposite normals at two corners", "their middle has no direction: NaN", "finite; no direction is no light", kTested},
     {"S-410", "an attribute at the centre of a partly covered pixel", "out of range", "at a covered sample", "there is no multisampling: the one sample is the centre"},
     {"S-411", "attributes in 16-bit floats", "infinite above 65504", "as 32 bits", "attributes are 32-bit floats"},

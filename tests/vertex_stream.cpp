@@ -156,6 +156,7 @@ TEST_CASE("vertex streams: a mesh without what VertexData asks for is one senten
     CHECK(names(errorOf(mesh, {.first = 1, .count = 3}), "is not within its 3 indices"));
     CHECK(names(errorOf(mesh, {.first = 4}), "is not within its 3 indices"));
     CHECK(names(errorOf(mesh, {}, {.lineWidth = 3}), "1 or 2 pixels wide"));
+    mesh = screen();
     CHECK(names(errorOf(mesh, {.instances = 0x7fffffff}), "more than 2^31"));
 }
 
@@ -221,7 +222,7 @@ TEST_CASE("vertex streams: instances are drawn one after the other, each with it
     CHECK(wrong == 0);
 }
 
-TEST_CASE("vertex streams: nointerpolation is the first vertex's, bit for bit, however a triangle is clipped")
+TEST_CASE("vertex streams: nointerpolation is the first vertex's, bit for bit, however a triangle is clipped (S-408)")
 {
     struct Flat
     {

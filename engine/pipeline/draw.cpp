@@ -16,19 +16,8 @@ namespace {
 
 constexpr std::size_t kBlocksPerGroup = 16;
 
-// One triangle's way through a run of blocks.
-struct TriangleInTile
-{
-    TriangleWeights weights;
-    TriangleEdges edges;
-
-    TriangleInTile(const TriangleBatch& batch, int triangle) { set(batch, triangle); }
-    void set(const TriangleBatch& batch, int triangle)
-    {
-        weights.set(batch, triangle);
-        edges.set(batch, triangle);
-    }
-};
+// After so many blocks it pays to look at all bounds of the tile: what is drawn over it later is often behind them all.
+constexpr std::size_t kBlocksToRefresh = 64;
 
 // Of one run of blocks.
 struct Counts
@@ -51,6 +40,30 @@ struct BlockState
           readsEdges(draw.programs->components > 0),
           discards(draw.programs->discards)
     {
+    }
+};
+
+// One triangle's way through a run of blocks.
+struct TriangleInTile
+{
+    TriangleWeights weights;
+    TriangleEdges edges;
+    int lane;
+    bool isHidden;  // behind everything in the tile
+
+    TriangleInTile(const BlockState& state, const TriangleBatch& batch, int triangle, Tile& tile)
+    {
+        set(state, batch, triangle, tile);
+    }
+    void set(const BlockState& state, const TriangleBatch& batch, int triangle, Tile& tile)
+    {
+        lane = triangle;
+        weights.set(batch, triangle);
+        edges.set(batch, triangle);
+        isHidden = leavesOut::hidden && state.usesDepth &&
+                   relief::isHidden(state.depthTest, weights.nearest, weights.farthest, tile.wholeBounds());
+        if (state.depthWrite && !isHidden)
+            updateBounds(state.depthTest, weights.nearest, weights.farthest, false, tile.wholeBounds());
     }
 };
 
@@ -138,16 +151,19 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
     std::array<ShadedBlock, kBlocksPerGroup> group;
     std::array<TriangleCorners, kLanes> corners;
     Counts counts;
-    int current = blocks.front().triangle;
-    TriangleInTile triangle(batch, current);
-    corners[static_cast<std::size_t>(current)] = cornersOf(draw, chunk, *batch.triangle[current]);
+    TriangleInTile triangle(state, batch, blocks.front().triangle, tile);
+    corners[static_cast<std::size_t>(triangle.lane)] = cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
     for (auto next = blocks.begin(); next != blocks.end();) {
         std::size_t count = 0;
         for (; next != blocks.end() && count < groupSize; ++next) {
-            if (next->triangle != current) {
-                current = next->triangle;
-                triangle.set(batch, current);
-                corners[static_cast<std::size_t>(current)] = cornersOf(draw, chunk, *batch.triangle[current]);
+            if (next->triangle != triangle.lane) {
+                triangle.set(state, batch, next->triangle, tile);
+                corners[static_cast<std::size_t>(triangle.lane)] =
+                    cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
+            }
+            if (triangle.isHidden) {
+                counts.hidden += static_cast<unsigned>(countBits(next->coverage));
+                continue;
             }
             ShadedBlock& block = group[count];
             block.x = next->x;
@@ -165,6 +181,7 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
         withFormat(tile.colorFormat(),
                    [&]<Format format>() { mergeBlocks<format>(shaded, state.blend, tile, counts); });
     }
+    if (state.depthWrite && blocks.size() >= kBlocksToRefresh) tile.refreshWholeBounds();
     shading.activeLanes = kAllLanes;
     statistics.blocksShaded += counts.blocks;
     statistics.quadsShaded += counts.quads;

@@ -138,6 +138,7 @@ void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
     } else {
         setBounds();
     }
+    refreshWholeBounds();
 }
 
 void Tile::fill(const Plane& plane, const std::int32_t (&value)[4])
@@ -167,6 +168,24 @@ void Tile::setBounds()
     for (int block = 0; block < blockCount; ++block) {
         const auto [low, high] = std::minmax_element(depth(block), depth(block) + kLanes);
         bounds(block) = {*low, *high};
+    }
+}
+
+void Tile::refreshWholeBounds()
+{
+    // Nearest and farthest alternate, so even lanes hold the one and odd lanes the other.
+    static_assert(sizeof(DepthBounds) == 2 * sizeof(float));
+    const float* numbers = &mBounds[0].nearest;
+    Float low = Float::load(numbers), high = low;
+    for (int i = kLanes; i < 2 * blockCount; i += kLanes) {
+        const Float some = Float::load(numbers + i);
+        low = min(low, some);
+        high = max(high, some);
+    }
+    mWholeBounds = {low[0], high[1]};
+    for (int lane = 2; lane < kLanes; lane += 2) {
+        mWholeBounds.nearest = std::min(mWholeBounds.nearest, low[lane]);
+        mWholeBounds.farthest = std::max(mWholeBounds.farthest, high[lane + 1]);
     }
 }
 

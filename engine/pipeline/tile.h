@@ -68,6 +68,10 @@ public:
     float* depth(int block) { return reinterpret_cast<float*>(depthPlane->at(block)); }
     DepthBounds& bounds(int block) { return mBounds[static_cast<std::size_t>(block)]; }
 
+    // Of all blocks together: conservative, and as narrow as they were when they were last refreshed.
+    DepthBounds& wholeBounds() { return mWholeBounds; }
+    void refreshWholeBounds();
+
 private:
     struct Plane
     {
@@ -91,6 +95,7 @@ private:
     const Plane* colorPlane = nullptr;
     const Plane* depthPlane = nullptr;
     std::unique_ptr<DepthBounds[]> mBounds;
+    DepthBounds mWholeBounds{};
 };
 
 // A colour as the format stores it.
