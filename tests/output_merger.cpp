@@ -439,7 +439,7 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
             tile.begin(0, 0, memory, {glm::vec4(0.25f), 1.0f});
             const unsigned live = static_cast<unsigned>(random.next()) & kAllLanes;
             withFormat(format, [&]<Format f>() {
-                mergeColor<f>(Blend::off, tile.color(0), float4(Float(0.75f)), Mask::fromBits(live));
+                ColorMerger<f>(Blend::off).merge(tile.color<f>(0), float4(Float(0.75f)), Mask::fromBits(live));
             });
             tile.store(memory);
             Framebuffer cleared = makeTarget(16, 16, format);

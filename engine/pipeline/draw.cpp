@@ -5,6 +5,7 @@
 // that discards decides about depth: its blocks go one by one.
 #include "pipeline/draw.h"
 
+#include <algorithm>
 #include <array>
 
 #include "leave_out.h"
@@ -16,8 +17,9 @@ namespace {
 
 constexpr std::size_t kBlocksPerGroup = 16;
 
-// After so many blocks it pays to look at all bounds of the tile: what is drawn over it later is often behind them all.
-constexpr std::size_t kBlocksToRefresh = 64;
+// With so many blocks in a run its triangles are large: it pays to look at the bounds of the whole tile, which are
+// often in front of all that is drawn over it later.
+constexpr std::size_t kBlocksOfLargeTriangles = 64;
 
 // Of one run of blocks.
 struct Counts
@@ -25,22 +27,27 @@ struct Counts
     unsigned blocks = 0, quads = 0, pixels = 0, hidden = 0, invalid = 0;
 };
 
-// What of a draw's state a block asks for.
-struct BlockState
+// What of a draw's state a block asks for: any, or the usual one, of which the compiler knows most.
+struct AnyState
 {
     Compare depthTest;
-    Blend blend;
-    bool usesDepth, depthWrite, readsEdges, discards;
+    bool usesDepth, depthWrite, discards, readsEdges;
 
-    BlockState(const Draw& draw, const Tile& tile)
+    AnyState(const Draw& draw, const Tile& tile)
         : depthTest(tile.hasDepth() ? draw.state.depthTest : Compare::always),
-          blend(draw.state.blend),
           usesDepth(tile.hasDepth() && (depthTest != Compare::always || draw.state.depthWrite)),
           depthWrite(tile.hasDepth() && draw.state.depthWrite),
-          readsEdges(draw.programs->components > 0),
-          discards(draw.programs->discards)
+          discards(draw.programs->discards),
+          readsEdges(draw.programs->components > 0)
     {
     }
+    bool isUsual() const { return depthTest == Compare::less && depthWrite && !discards; }
+};
+struct UsualState
+{
+    static constexpr Compare depthTest = Compare::less;
+    static constexpr bool usesDepth = true, depthWrite = true, discards = false;
+    bool readsEdges;
 };
 
 // One triangle's way through a run of blocks.
@@ -49,27 +56,20 @@ struct TriangleInTile
     TriangleWeights weights;
     TriangleEdges edges;
     int lane;
-    bool isHidden;  // behind everything in the tile
 
-    TriangleInTile(const BlockState& state, const TriangleBatch& batch, int triangle, Tile& tile)
-    {
-        set(state, batch, triangle, tile);
-    }
-    void set(const BlockState& state, const TriangleBatch& batch, int triangle, Tile& tile)
+    TriangleInTile(const TriangleBatch& batch, int triangle) { set(batch, triangle); }
+    void set(const TriangleBatch& batch, int triangle)
     {
         lane = triangle;
         weights.set(batch, triangle);
         edges.set(batch, triangle);
-        isHidden = leavesOut::hidden && state.usesDepth &&
-                   relief::isHidden(state.depthTest, weights.nearest, weights.farthest, tile.wholeBounds());
-        if (state.depthWrite && !isHidden)
-            updateBounds(state.depthTest, weights.nearest, weights.farthest, false, tile.wholeBounds());
     }
 };
 
 // Writes the depth of a block's live pixels.
-void writeDepth(const BlockState& state, const TriangleWeights& triangle, const ShadedBlock& block, Mask live,
-                Float depth, Float old, Tile& tile)
+template <class State>
+void writeDepth(const State& state, const TriangleWeights& triangle, const ShadedBlock& block, Mask live, Float depth,
+                Float old, Tile& tile)
 {
     if (!state.depthWrite || none(live)) return;
     select(live, depth, old).store(tile.depth(block.index));
@@ -79,7 +79,8 @@ void writeDepth(const BlockState& state, const TriangleWeights& triangle, const 
 
 // Before the program runs: which pixels pass the depth test. Their depth is written here, too, unless the program may
 // throw them away afterwards. Returns whether there is anything to shade.
-bool testEarly(const BlockState& state, const TriangleInTile& triangle, ShadedBlock& block, Tile& tile, Counts& counts)
+template <class State>
+bool testEarly(const State& state, const TriangleInTile& triangle, ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     block.live = block.coverage;
@@ -112,7 +113,8 @@ bool testEarly(const BlockState& state, const TriangleInTile& triangle, ShadedBl
 }
 
 // What a discarding program has left of a block: its depth is written now.
-void testLate(const BlockState& state, const TriangleInTile& triangle, ShadedBlock& block, Tile& tile)
+template <class State>
+void testLate(const State& state, const TriangleInTile& triangle, ShadedBlock& block, Tile& tile)
 {
     block.live &= ~block.discarded;
     if (!state.usesDepth) return;
@@ -124,12 +126,12 @@ void testLate(const BlockState& state, const TriangleInTile& triangle, ShadedBlo
 template <Format format>
 void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, Counts& counts)
 {
+    ColorMerger<format> merger(blend);
     for (const ShadedBlock& block : blocks) {
-        const Mask live = Mask::fromBits(block.live);
-        float4 color(Float::load(block.color[0]), Float::load(block.color[1]), Float::load(block.color[2]),
-                     Float::load(block.color[3]));
-        counts.invalid += static_cast<unsigned>(sanitizeColor(color, live));
-        mergeColor<format>(blend, tile.color(block.index), color, live);
+        const float4 color(Float::load(block.color[0]), Float::load(block.color[1]), Float::load(block.color[2]),
+                           Float::load(block.color[3]));
+        counts.invalid +=
+            static_cast<unsigned>(merger.merge(tile.color<format>(block.index), color, Mask::fromBits(block.live)));
     }
 }
 
@@ -140,28 +142,27 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
              componentsOf(draw.geometry, chunk, triangle.vertex[2])}};
 }
 
-}  // namespace
-
-[[gnu::flatten]] void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
-                                  const TriangleChunk& chunk, Tile& tile, Statistics& statistics)
+template <class State>
+void shadeBlocksIn(const State& state, const Draw& draw, std::span<const CoveredBlock> blocks,
+                   const TriangleBatch& batch, const TriangleChunk& chunk, Tile& tile, Counts& counts)
 {
-    const BlockState state(draw, tile);
     const bool runsProgram = tile.hasColor() || state.discards;
     const std::size_t groupSize = state.discards ? 1 : kBlocksPerGroup;
+    const bool isLarge = blocks.size() >= kBlocksOfLargeTriangles;
     std::array<ShadedBlock, kBlocksPerGroup> group;
     std::array<TriangleCorners, kLanes> corners;
-    Counts counts;
-    TriangleInTile triangle(state, batch, blocks.front().triangle, tile);
+    TriangleInTile triangle(batch, blocks.front().triangle);
     corners[static_cast<std::size_t>(triangle.lane)] = cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
     for (auto next = blocks.begin(); next != blocks.end();) {
         std::size_t count = 0;
         for (; next != blocks.end() && count < groupSize; ++next) {
             if (next->triangle != triangle.lane) {
-                triangle.set(state, batch, next->triangle, tile);
+                triangle.set(batch, next->triangle);
                 corners[static_cast<std::size_t>(triangle.lane)] =
                     cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
             }
-            if (triangle.isHidden) {
+            if (leavesOut::hidden && isLarge && state.usesDepth &&
+                isHidden(state.depthTest, triangle.weights.nearest, triangle.weights.farthest, tile.wholeBounds())) {
                 counts.hidden += static_cast<unsigned>(countBits(next->coverage));
                 continue;
             }
@@ -179,9 +180,25 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
         if (state.discards) testLate(state, triangle, group[0], tile);
         if (!tile.hasColor()) continue;
         withFormat(tile.colorFormat(),
-                   [&]<Format format>() { mergeBlocks<format>(shaded, state.blend, tile, counts); });
+                   [&]<Format format>() { mergeBlocks<format>(shaded, draw.state.blend, tile, counts); });
     }
-    if (state.depthWrite && blocks.size() >= kBlocksToRefresh) tile.refreshWholeBounds();
+    if (!state.depthWrite) return;
+    updateBounds(state.depthTest, 0.0f, 1.0f, false, tile.wholeBounds());  // whatever was written
+    if (isLarge) tile.refreshWholeBounds();
+}
+
+}  // namespace
+
+[[gnu::flatten]] void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
+                                  const TriangleChunk& chunk, Tile& tile, Statistics& statistics)
+{
+    Counts counts;
+    const AnyState state(draw, tile);
+    if (state.isUsual()) {
+        shadeBlocksIn(UsualState{state.readsEdges}, draw, blocks, batch, chunk, tile, counts);
+    } else {
+        shadeBlocksIn(state, draw, blocks, batch, chunk, tile, counts);
+    }
     shading.activeLanes = kAllLanes;
     statistics.blocksShaded += counts.blocks;
     statistics.quadsShaded += counts.quads;

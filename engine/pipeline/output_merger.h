@@ -90,19 +90,53 @@ inline int sanitizeColor(float4& color, Mask live)
     return count(invalid);
 }
 
-// Blends the colours of a block's live pixels into `stored`, its words in a tile. Colours are linear.
+// Merges the colours of one block after the other into their words in a tile. Colours are linear.
 template <Format format>
-void mergeColor(Blend blend, std::int32_t* stored, float4 color, Mask live)
+class ColorMerger
 {
-    constexpr std::size_t count = static_cast<std::size_t>(wordsPerPixel(format));
-    std::array<Int, count> old;
-    for (std::size_t i = 0; i < count; ++i) old[i] = Int::load(stored + i * kLanes);
-    if (blend != Blend::off) [[unlikely]] {
+public:
+    explicit ColorMerger(Blend blending) : blend(blending) {}
+
+    // Of a block's live pixels. Returns how many of them had a NaN or an infinity.
+    int merge(std::int32_t* stored, const float4& color, Mask live)
+    {
+        Words old;
+        for (std::size_t i = 0; i < kWords; ++i) old[i] = Int::load(stored + i * kLanes);
+        const int invalid = blend == Blend::off ? encodeUnlessSame(color, live) : blendWith(old, color, live);
+        for (std::size_t i = 0; i < kWords; ++i) select(live, words[i], old[i]).store(stored + i * kLanes);
+        return invalid;
+    }
+
+private:
+    static constexpr std::size_t kWords = static_cast<std::size_t>(wordsPerPixel(format));
+    using Words = std::array<Int, kWords>;
+
+    // Neighbouring blocks often have one colour, and then the words are there already.
+    int encodeUnlessSame(const float4& color, Mask live)
+    {
+        const auto changed = [&](int c) { return asInt(color[c]) ^ asInt(last[c]); };
+        if (hasLast && none((changed(0) | changed(1) | changed(2) | changed(3)) != 0)) return 0;
+        last = color;
+        float4 finite = color;
+        const int invalid = sanitizeColor(finite, live);
+        hasLast = invalid == 0;
+        words = encodeColor<format>(finite);
+        return invalid;
+    }
+
+    int blendWith(const Words& old, float4 color, Mask live)
+    {
+        const int invalid = sanitizeColor(color, live);
         color = blendColors(blend, isUnorm(format) ? saturate(color) : color, decodeColor<format>(old));
         if (!isUnorm(format)) sanitizeColor(color, live);  // sums may overflow
+        words = encodeColor<format>(color);
+        return invalid;
     }
-    const std::array<Int, count> words = encodeColor<format>(color);
-    for (std::size_t i = 0; i < count; ++i) select(live, words[i], old[i]).store(stored + i * kLanes);
-}
+
+    Blend blend;
+    bool hasLast = false;
+    float4 last{0.0f};
+    Words words{};
+};
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -111,7 +111,14 @@ Tile::Tile(int tileSize, const std::vector<Attachment>& attachments)
         const auto words = static_cast<std::size_t>(wordsPerPixel(attachment.format));
         planes.push_back({attachment.format, std::make_unique<std::int32_t[]>(pixels * words)});
     }
-    for (const Plane& plane : planes) (plane.format == Format::depth32f ? depthPlane : colorPlane) = &plane;
+    for (const Plane& plane : planes) {
+        if (plane.format == Format::depth32f) {
+            depthWords = reinterpret_cast<float*>(plane.words.get());
+        } else {
+            colorWords = plane.words.get();
+            mColorFormat = plane.format;
+        }
+    }
     mBounds = std::make_unique<DepthBounds[]>(static_cast<std::size_t>(blockCount));
 }
 
@@ -132,7 +139,7 @@ void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
         if (isCleared || isPartial) fill(planes[i], value);
         if (!isCleared) load(planes[i], target, target.words[i]);
     }
-    if (!depthPlane) return;
+    if (!hasDepth()) return;
     if (clear.depth) {
         std::fill_n(mBounds.get(), blockCount, DepthBounds{*clear.depth, *clear.depth});
     } else {
@@ -149,7 +156,8 @@ void Tile::fill(const Plane& plane, const std::int32_t (&value)[4])
         return;
     }
     for (int block = 0; block < blockCount; ++block) {
-        for (int c = 0; c < words; ++c) std::fill_n(plane.at(block) + c * kLanes, kLanes, value[c]);
+        for (int c = 0; c < words; ++c)
+            std::fill_n(&plane.words[static_cast<std::size_t>((block * words + c) * kLanes)], kLanes, value[c]);
     }
 }
 

@@ -59,13 +59,17 @@ public:
         return static_cast<int>(row / kBlockHeight) * blocksWide + static_cast<int>(column / kBlockWidth);
     }
 
-    bool hasColor() const { return colorPlane != nullptr; }
-    bool hasDepth() const { return depthPlane != nullptr; }
-    Format colorFormat() const { return colorPlane->format; }
+    bool hasColor() const { return colorWords != nullptr; }
+    bool hasDepth() const { return depthWords != nullptr; }
+    Format colorFormat() const { return mColorFormat; }
 
-    // A block's words: the first ones of all lanes, then the second ones.
-    std::int32_t* color(int block) { return colorPlane->at(block); }
-    float* depth(int block) { return reinterpret_cast<float*>(depthPlane->at(block)); }
+    // A block's words: the first ones of all lanes, then the second ones. The caller knows the format.
+    template <Format format>
+    std::int32_t* color(int block)
+    {
+        return colorWords + static_cast<std::ptrdiff_t>(block) * (kLanes * wordsPerPixel(format));
+    }
+    float* depth(int block) { return depthWords + static_cast<std::ptrdiff_t>(block) * kLanes; }
     DepthBounds& bounds(int block) { return mBounds[static_cast<std::size_t>(block)]; }
 
     // Of all blocks together: conservative, and as narrow as they were when they were last refreshed.
@@ -77,12 +81,6 @@ private:
     {
         Format format;
         std::unique_ptr<std::int32_t[]> words;
-
-        std::int32_t* at(int block) const
-        {
-            return words.get() +
-                   static_cast<std::size_t>(block) * static_cast<std::size_t>(kLanes * wordsPerPixel(format));
-        }
     };
 
     void fill(const Plane& plane, const std::int32_t (&value)[4]);
@@ -91,9 +89,10 @@ private:
 
     int size, blocksWide, blockCount;
     int originX = 0, originY = 0;
-    std::vector<Plane> planes;  // one for each attachment
-    const Plane* colorPlane = nullptr;
-    const Plane* depthPlane = nullptr;
+    std::vector<Plane> planes;           // one for each attachment
+    std::int32_t* colorWords = nullptr;  // where the two lie
+    float* depthWords = nullptr;
+    Format mColorFormat = Format::rgba8;
     std::unique_ptr<DepthBounds[]> mBounds;
     DepthBounds mWholeBounds{};
 };
