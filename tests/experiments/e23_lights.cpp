@@ -198,7 +198,7 @@ Variant variant(const Way& way)
         Outcome result(picture->error(), {{"lights", static_cast<double>(w.lights)},
                                           {"vertices", static_cast<double>(picture->mesh.positions.size())},
                                           {"bytes a pixel", w.bits / 2.0}});
-        if (w.bits != 8) result.imageHash = samples::hashOf(*picture->target);
+        if (w.bits != 8) result.imageHash = hashOf(*picture->target);
         return result;
     };
     return {way.name, way.parameter, outcome, {[picture] { picture->run(); }, static_cast<double>(kSize * kSize)}};

@@ -18,7 +18,7 @@ std::uint64_t hashOfFrame(const TriangleScene& triangles, const FrameOptions& op
 {
     const auto f = framed(triangles, options, false);
     f->frame.run();
-    return samples::hashOf(f->target);
+    return hashOf(f->target);
 }
 
 }  // namespace

@@ -197,7 +197,7 @@ Experiment lanes(Effort)
     const auto sameHash = [triangles] {
         const auto f = framed(*triangles, {.threads = 1}, false);
         f->frame.run();
-        return samples::hashOf(f->target) == kHash ? 1.0 : 0.0;
+        return hashOf(f->target) == kHash ? 1.0 : 0.0;
     };
     e.checks.push_back({"the picture's hash is that of all builds", 1.0, sameHash, 0.0});
     e.finding = [](const Rows& rows) {

@@ -48,7 +48,7 @@ Experiment threads(Effort)
             const Statistics s = f->frame.run();
             const auto hash = [=] {
                 f->frame.run();
-                return samples::hashOf(f->target);
+                return hashOf(f->target);
             };
             const auto outcome = [=] {
                 one->frame.run();
@@ -66,7 +66,7 @@ Experiment threads(Effort)
             e.variants.push_back(v);
             const auto sameAsOne = [=] {
                 one->frame.run();
-                return hash() == samples::hashOf(one->target) ? 1.0 : 0.0;
+                return hash() == hashOf(one->target) ? 1.0 : 0.0;
             };
             e.checks.push_back({"every bit as of one thread, " + v.name + ", " + where, 1.0, sameAsOne, 0.0});
         }
