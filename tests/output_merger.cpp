@@ -489,6 +489,27 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
     checkInvariants(target, statistics);
 }
 
+TEST_CASE("output merger: a colour that comes again is cleaned where other pixels are live (S-951)")
+{
+    // A NaN in lane 0 does not count while lane 0 is not live, and does when it is.
+    float4 color(Float(0.5f));
+    color.x.set(0, std::numeric_limits<float>::quiet_NaN());
+    std::int32_t stored[4 * kLanes] = {};
+    ColorMerger<Format::rgba32f> merger(Blend::off);
+    CHECK(merger.merge(stored, color, Mask::fromBits(kAllLanes & ~1u)) == 0);
+    CHECK(stored[0] == 0);
+    CHECK(merger.merge(stored, color, Mask::fromBits(1u)) == 1);
+    CHECK(stored[0] == 0);  // NaN becomes 0
+    CHECK(stored[1] == std::bit_cast<std::int32_t>(0.5f));
+
+    // And the same colour twice is stored twice.
+    std::int32_t other[4 * kLanes] = {};
+    const float4 plain(Float(0.25f));
+    CHECK(merger.merge(stored, plain, true) == 0);
+    CHECK(merger.merge(other, plain, true) == 0);
+    CHECK(std::equal(stored, stored + 4 * kLanes, other));
+}
+
 TEST_CASE("output merger: depth-tested scenes equal pixel-by-pixel comparison (S-905)")
 {
     Random random(73);

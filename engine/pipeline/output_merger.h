@@ -118,10 +118,11 @@ private:
         if (hasLast && none((changed(0) | changed(1) | changed(2) | changed(3)) != 0)) return 0;
         last = color;
         float4 finite = color;
-        const int invalid = sanitizeColor(finite, live);
-        hasLast = invalid == 0;
+        // In all lanes: other pixels may be live in the next block.
+        hasLast = sanitizeColor(finite, true) == 0;
         words = encodeColor<format>(finite);
-        return invalid;
+        float4 counted = color;
+        return hasLast ? 0 : sanitizeColor(counted, live);
     }
 
     int blendWith(const Words& old, float4 color, Mask live)
