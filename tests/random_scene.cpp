@@ -267,7 +267,7 @@ Mesh randomMesh(Numbers& number)
     Mesh mesh;
     const int vertices = source.chance(20) ? 0 : source.between(1, 24);
     const auto length = [&] {  // streams may be missing or too short: then their draw is left out
-        return static_cast<std::size_t>(source.chance(60) ? source.between(0, vertices) : vertices);
+        return static_cast<std::size_t>(source.chance(200) ? source.between(0, vertices) : vertices);
     };
     const float reach = source.chance(3) ? 30.0f : 2.0f;
     for (int i = 0; i < vertices; ++i) mesh.positions.push_back({number(reach), number(reach), number() * 0.6f + 0.5f});
@@ -282,7 +282,7 @@ Mesh randomMesh(Numbers& number)
     const int corners = source.between(0, 20) * 6;
     for (int i = 0; i < corners; ++i) {
         mesh.indices.push_back(static_cast<std::uint32_t>(
-            source.chance(60) ? source.between(-2, 1000) : source.between(0, std::max(0, vertices - 1))));
+            source.chance(200) ? source.between(-2, 1000) : source.between(0, std::max(0, vertices - 1))));
     }
     return mesh;
 }
