@@ -10,9 +10,3 @@
 //   tangent.w        -1 or +1; binormal = cross(normal, tangent.xyz) * tangent.w * unity_WorldTransformParams.w
 //   lighting         in linear colour: albedo textures are decoded from sRGB, heights and normals never are
 #pragma once
-
-namespace relief {
-
-inline constexpr bool kFrontFaceIsClockwise = true;
-
-}  // namespace relief
