@@ -40,10 +40,16 @@ public:
 
     BlockWeights at(int x, int y, unsigned coverage) const
     {
-        const Float edge[3] = {edges.at(0, x, y), edges.at(1, x, y), edges.at(2, x, y)};
+        Float edge[3];
+        edges.at(x, y, edge);
         return weights.of(edge, coverage);
     }
-    Float depthAt(int x, int y) const { return weights.depth(edges.at(1, x, y), edges.at(2, x, y)); }
+    Float depthAt(int x, int y) const
+    {
+        Float edge[3];
+        edges.at(x, y, edge);
+        return weights.depth(edge[1], edge[2]);
+    }
     Float clipW(const BlockWeights& w) const { return weights.clipW(w); }
 
 private:

@@ -438,9 +438,10 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
         for (int i = 0; i < trials(500); ++i) {
             tile.begin(0, 0, memory, {glm::vec4(0.25f), 1.0f});
             const unsigned live = static_cast<unsigned>(random.next()) & kAllLanes;
-            withFormat(format, [&]<Format f>() {
-                ColorMerger<f>(Blend::off).merge(tile.color<f>(0), float4(Float(0.75f)), Mask::fromBits(live));
-            });
+            alignas(Float) Channels color;
+            for (float(&channel)[kLanes] : color) Float(0.75f).store(channel);
+            withFormat(format,
+                       [&]<Format f>() { ColorWriter<f>().write(tile.color<f>(0), color, Mask::fromBits(live)); });
             tile.store(memory);
             Framebuffer cleared = makeTarget(16, 16, format);
             Tile clean(16, cleared.attachments());
@@ -492,21 +493,24 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
 TEST_CASE("output merger: a colour that comes again is cleaned where other pixels are live (S-951)")
 {
     // A NaN in lane 0 does not count while lane 0 is not live, and does when it is.
-    float4 color(Float(0.5f));
-    color.x.set(0, std::numeric_limits<float>::quiet_NaN());
+    alignas(Float) Channels color;
+    for (float(&channel)[kLanes] : color) Float(0.5f).store(channel);
+    color[0][0] = std::numeric_limits<float>::quiet_NaN();
     std::int32_t stored[4 * kLanes] = {};
-    ColorMerger<Format::rgba32f> merger(Blend::off);
-    CHECK(merger.merge(stored, color, Mask::fromBits(kAllLanes & ~1u)) == 0);
+    ColorWriter<Format::rgba32f> writer;
+    CHECK(writer.write(stored, color, Mask::fromBits(kAllLanes & ~1u)) == 0);
     CHECK(stored[0] == 0);
-    CHECK(merger.merge(stored, color, Mask::fromBits(1u)) == 1);
+    CHECK(writer.write(stored, color, Mask::fromBits(1u)) == 1);
     CHECK(stored[0] == 0);  // NaN becomes 0
     CHECK(stored[1] == std::bit_cast<std::int32_t>(0.5f));
 
-    // And the same colour twice is stored twice.
+    // And the same colour twice is stored twice, wherever it lies.
+    alignas(Float) Channels plain, again;
+    for (float(&channel)[kLanes] : plain) Float(0.25f).store(channel);
+    for (float(&channel)[kLanes] : again) Float(0.25f).store(channel);
     std::int32_t other[4 * kLanes] = {};
-    const float4 plain(Float(0.25f));
-    CHECK(merger.merge(stored, plain, true) == 0);
-    CHECK(merger.merge(other, plain, true) == 0);
+    CHECK(writer.write(stored, plain, true) == 0);
+    CHECK(writer.write(other, again, true) == 0);
     CHECK(std::equal(stored, stored + 4 * kLanes, other));
 }
 

@@ -17,14 +17,14 @@ namespace {
 
 constexpr std::size_t kBlocksPerGroup = 16;
 
-// With so many blocks in a run its triangles are large: it pays to look at the bounds of the whole tile, which are
-// often in front of all that is drawn over it later.
-constexpr std::size_t kBlocksOfLargeTriangles = 64;
+// Where a run has so many blocks a triangle it pays to look at the bounds of the whole tile, which are often in front
+// of all that is drawn over it later.
+constexpr int kBlocksOfLargeTriangle = 64;
 
 // Of one run of blocks.
 struct Counts
 {
-    unsigned blocks = 0, quads = 0, pixels = 0, hidden = 0, invalid = 0;
+    unsigned blocks = 0, quads = 0, pixels = 0, covered = 0, invalid = 0;
 };
 
 // What of a draw's state a block asks for: any, or the usual one, of which the compiler knows most.
@@ -43,11 +43,11 @@ struct AnyState
     }
     bool isUsual() const { return depthTest == Compare::less && depthWrite && !discards; }
 };
+template <bool interpolates>
 struct UsualState
 {
     static constexpr Compare depthTest = Compare::less;
-    static constexpr bool usesDepth = true, depthWrite = true, discards = false;
-    bool readsEdges;
+    static constexpr bool usesDepth = true, depthWrite = true, discards = false, readsEdges = interpolates;
 };
 
 // One triangle's way through a run of blocks.
@@ -68,47 +68,57 @@ struct TriangleInTile
 
 // Writes the depth of a block's live pixels.
 template <class State>
-void writeDepth(const State& state, const TriangleWeights& triangle, const ShadedBlock& block, Mask live, Float depth,
-                Float old, Tile& tile)
+void writeDepth(const State& state, const TriangleWeights& triangle, bool isWhole, Mask live, Float depth, Float old,
+                float* stored, DepthBounds& bounds)
 {
     if (!state.depthWrite || none(live)) return;
-    select(live, depth, old).store(tile.depth(block.index));
-    updateBounds(state.depthTest, triangle.nearest, triangle.farthest, !state.discards && block.coverage == kAllLanes,
-                 tile.bounds(block.index));
+    select(live, depth, old).store(stored);
+    updateBounds(state.depthTest, triangle.nearest, triangle.farthest, isWhole, bounds);
 }
 
 // Before the program runs: which pixels pass the depth test. Their depth is written here, too, unless the program may
 // throw them away afterwards. Returns whether there is anything to shade.
 template <class State>
-bool testEarly(const State& state, const TriangleInTile& triangle, ShadedBlock& block, Tile& tile, Counts& counts)
+bool testEarly(const State& state, const TriangleInTile& triangle, const CoveredBlock& covered, bool isLarge,
+               ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
-    block.live = block.coverage;
-    if (leavesOut::hidden && state.usesDepth &&
-        isHidden(state.depthTest, weights.nearest, weights.farthest, tile.bounds(block.index))) {
-        counts.hidden += static_cast<unsigned>(countBits(block.coverage));
-        return false;
+    const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
+    const unsigned coverage = covered.coverage;
+    counts.covered += static_cast<unsigned>(countBits(coverage));
+    const auto hidden = [&](const DepthBounds& bounds) {
+        return isHidden(state.depthTest, weights.nearest, weights.farthest, bounds);
+    };
+    if (leavesOut::hidden && state.usesDepth) {
+        if (isLarge && hidden(tile.wholeBounds())) return false;
+        if (hidden(tile.bounds(index))) return false;
     }
+    unsigned live = coverage;
     if (state.usesDepth || state.readsEdges) {
-        const Float edge1 = triangle.edges.at(1, block.x, block.y), edge2 = triangle.edges.at(2, block.x, block.y);
+        Float edge[3];
+        triangle.edges.at(x, y, edge);
         if (state.usesDepth) {
-            const Float depth = weights.depth(edge1, edge2), old = Float::load(tile.depth(block.index));
-            const Mask live = Mask::fromBits(block.coverage) & compareDepth(state.depthTest, depth, old);
-            block.live = live.bits();
-            if (!state.discards) writeDepth(state, weights, block, live, depth, old, tile);
-            counts.hidden += static_cast<unsigned>(countBits(block.coverage) - countBits(block.live));
-            if (leavesOut::hidden && block.live == 0) return false;
+            float* const stored = tile.depth(index);
+            const Float depth = weights.depth(edge[1], edge[2]), old = Float::load(stored);
+            const Mask passed = Mask::fromBits(coverage) & compareDepth(state.depthTest, depth, old);
+            live = passed.bits();
+            if (leavesOut::hidden && live == 0) return false;
+            if (!state.discards)
+                writeDepth(state, weights, coverage == kAllLanes, passed, depth, old, stored, tile.bounds(index));
         }
         if (state.readsEdges) {
-            triangle.edges.at(0, block.x, block.y).store(block.edge[0]);
-            edge1.store(block.edge[1]);
-            edge2.store(block.edge[2]);
+            edge[0].store(block.edge[0]);
+            edge[1].store(block.edge[1]);
+            edge[2].store(block.edge[2]);
         }
     }
-    block.quads = wholeQuads(leavesOut::hidden ? block.live : block.coverage);
-    counts.blocks += 1;
-    counts.quads += static_cast<unsigned>(countBits(block.quads)) / 4;
-    counts.pixels += static_cast<unsigned>(countBits(block.live));
+    const unsigned quads = wholeQuads(leavesOut::hidden ? live : coverage);
+    counts.quads += static_cast<unsigned>(countBits(quads)) / 4;
+    counts.pixels += static_cast<unsigned>(countBits(live));
+    block.live = live;
+    block.quads = quads;
+    block.index = index;
+    block.covered = covered;
     return true;
 }
 
@@ -118,20 +128,23 @@ void testLate(const State& state, const TriangleInTile& triangle, ShadedBlock& b
 {
     block.live &= ~block.discarded;
     if (!state.usesDepth) return;
-    const Float edge1 = triangle.edges.at(1, block.x, block.y), edge2 = triangle.edges.at(2, block.x, block.y);
-    writeDepth(state, triangle.weights, block, Mask::fromBits(block.live), triangle.weights.depth(edge1, edge2),
-               Float::load(tile.depth(block.index)), tile);
+    Float edge[3];
+    triangle.edges.at(block.covered.x, block.covered.y, edge);
+    float* const stored = tile.depth(block.index);
+    writeDepth(state, triangle.weights, false, Mask::fromBits(block.live), triangle.weights.depth(edge[1], edge[2]),
+               Float::load(stored), stored, tile.bounds(block.index));
 }
 
 template <Format format>
 void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, Counts& counts)
 {
-    ColorMerger<format> merger(blend);
+    ColorWriter<format> writer;
     for (const ShadedBlock& block : blocks) {
-        const float4 color(Float::load(block.color[0]), Float::load(block.color[1]), Float::load(block.color[2]),
-                           Float::load(block.color[3]));
+        std::int32_t* const words = tile.color<format>(block.index);
+        const Mask live = Mask::fromBits(block.live);
         counts.invalid +=
-            static_cast<unsigned>(merger.merge(tile.color<format>(block.index), color, Mask::fromBits(block.live)));
+            static_cast<unsigned>(blend == Blend::off ? writer.write(words, block.color, live)
+                                                      : blendInto<format>(words, blend, block.color, live));
     }
 }
 
@@ -148,7 +161,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
 {
     const bool runsProgram = tile.hasColor() || state.discards;
     const std::size_t groupSize = state.discards ? 1 : kBlocksPerGroup;
-    const bool isLarge = blocks.size() >= kBlocksOfLargeTriangles;
+    const bool isLarge = static_cast<int>(blocks.size()) >= kBlocksOfLargeTriangle * countBits(batch.visible);
     std::array<ShadedBlock, kBlocksPerGroup> group;
     std::array<TriangleCorners, kLanes> corners;
     TriangleInTile triangle(batch, blocks.front().triangle);
@@ -161,19 +174,9 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
                 corners[static_cast<std::size_t>(triangle.lane)] =
                     cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
             }
-            if (leavesOut::hidden && isLarge && state.usesDepth &&
-                isHidden(state.depthTest, triangle.weights.nearest, triangle.weights.farthest, tile.wholeBounds())) {
-                counts.hidden += static_cast<unsigned>(countBits(next->coverage));
-                continue;
-            }
-            ShadedBlock& block = group[count];
-            block.x = next->x;
-            block.y = next->y;
-            block.index = tile.blockAt(next->x, next->y);
-            block.triangle = next->triangle;
-            block.coverage = next->coverage;
-            if (testEarly(state, triangle, block, tile, counts)) ++count;
+            if (testEarly(state, triangle, *next, isLarge, group[count], tile, counts)) ++count;
         }
+        counts.blocks += static_cast<unsigned>(count);
         if (!runsProgram || count == 0) continue;
         const std::span<ShadedBlock> shaded(group.data(), count);
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), shaded, batch, corners.data());
@@ -194,8 +197,10 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
 {
     Counts counts;
     const AnyState state(draw, tile);
-    if (state.isUsual()) {
-        shadeBlocksIn(UsualState{state.readsEdges}, draw, blocks, batch, chunk, tile, counts);
+    if (state.isUsual() && state.readsEdges) {
+        shadeBlocksIn(UsualState<true>(), draw, blocks, batch, chunk, tile, counts);
+    } else if (state.isUsual()) {
+        shadeBlocksIn(UsualState<false>(), draw, blocks, batch, chunk, tile, counts);
     } else {
         shadeBlocksIn(state, draw, blocks, batch, chunk, tile, counts);
     }
@@ -203,7 +208,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     statistics.blocksShaded += counts.blocks;
     statistics.quadsShaded += counts.quads;
     statistics.pixelsShaded += counts.pixels;
-    statistics.pixelsHidden += counts.hidden;
+    statistics.pixelsHidden += counts.covered - counts.pixels;
     statistics.invalidColors += counts.invalid;
 }
 

@@ -59,12 +59,11 @@ float shadeSample(const Draw& draw, const Sample& sample, std::uint64_t times)
     for (int k = 0; k < 3; ++k)
         corners.components[k] = componentsOf(draw.geometry, *sample.chunk, sample.triangle->vertex[k]);
     ShadedBlock block;
-    block.x = sample.block.x;
-    block.y = sample.block.y;
-    block.triangle = 0;
-    block.coverage = sample.block.coverage;
-    block.quads = wholeQuads(block.coverage);
-    for (int k = 0; k < 3; ++k) edges.at(k, block.x, block.y).store(block.edge[k]);
+    block.covered = sample.block;
+    block.quads = wholeQuads(sample.block.coverage);
+    Float edge[3];
+    edges.at(sample.block.x, sample.block.y, edge);
+    for (int k = 0; k < 3; ++k) edge[k].store(block.edge[k]);
     std::array<ShadedBlock, 16> group;
     group.fill(block);
     float sum = 0.0f;

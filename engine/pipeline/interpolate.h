@@ -18,7 +18,8 @@ namespace relief::inline RELIEF_WIDTH {
 // One number for all lanes, as it is read fastest: SSE2 has no instruction that spreads a number while it is loaded.
 using Broadcast = std::conditional_t<kLanes == 4, Float, float>;
 
-// A triangle's edge functions at the pixels of a block: exact integers, rounded to float once.
+// A triangle's edge functions at the pixels of a block: exact integers, rounded to float once. The three add up to
+// twice the triangle's area, so that two are followed over the pixels and the other one is the rest.
 class TriangleEdges
 {
 public:
@@ -26,42 +27,60 @@ public:
     void set(const TriangleBatch& batch, int lane)
     {
         small = (batch.small >> lane & 1u) != 0;
-        for (int k = 0; k < 3; ++k) {
-            if (small) {
+        if (small) {
+            smallSum = batch.origin[0][lane] + batch.origin[1][lane] + batch.origin[2][lane];
+            for (int k = 1; k < 3; ++k) {
                 stepX[k] = batch.stepX[k][lane];
                 stepY[k] = batch.stepY[k][lane];
                 smallLanes[k] = laneXs() * stepX[k] + laneYs() * stepY[k] + batch.origin[k][lane];
-            } else {
-                const EdgeFunction edge = edgeOf(*batch.triangle[lane], k);
-                // stepX * 3 + stepY * 3 stays below 2^27; times 256 it needs the double.
-                const Int steps = laneXs() * edge.stepX + laneYs() * edge.stepY;
-                largeLanes[k] = Double(steps) * Double(kSubpixels) + Double(static_cast<double>(edge.origin));
-                largeStepX[k] = static_cast<double>(edge.stepX) * kSubpixels;
-                largeStepY[k] = static_cast<double>(edge.stepY) * kSubpixels;
             }
+            return;
+        }
+        const Triangle& triangle = *batch.triangle[lane];
+        largeSum = static_cast<double>(edgeOf(triangle, 0).origin);
+        for (int k = 1; k < 3; ++k) {
+            const EdgeFunction edge = edgeOf(triangle, k);
+            // stepX * 3 + stepY * 3 stays below 2^27; times 256 it needs the double.
+            const Int steps = laneXs() * edge.stepX + laneYs() * edge.stepY;
+            const auto origin = static_cast<double>(edge.origin);
+            largeLanes[k] = Double(steps) * Double(kSubpixels) + Double(origin);
+            largeStepX[k] = static_cast<double>(edge.stepX) * kSubpixels;
+            largeStepY[k] = static_cast<double>(edge.stepY) * kSubpixels;
+            largeSum += origin;
         }
     }
 
     // Of the block whose upper left pixel is (x, y).
-    Float at(int k, int x, int y) const
+    void at(int x, int y, Float (&edge)[3]) const
     {
         if (small) {
-            const std::uint32_t steps = static_cast<std::uint32_t>(stepX[k]) * static_cast<std::uint32_t>(x) +
-                                        static_cast<std::uint32_t>(stepY[k]) * static_cast<std::uint32_t>(y);
-            return Float(smallLanes[k] + static_cast<std::int32_t>(steps));
+            const auto value = [&](int k) {
+                const std::uint32_t steps = static_cast<std::uint32_t>(stepX[k]) * static_cast<std::uint32_t>(x) +
+                                            static_cast<std::uint32_t>(stepY[k]) * static_cast<std::uint32_t>(y);
+                return smallLanes[k] + static_cast<std::int32_t>(steps);
+            };
+            const Int edge1 = value(1), edge2 = value(2);
+            edge[0] = Float(smallSum - edge1 - edge2);
+            edge[1] = Float(edge1);
+            edge[2] = Float(edge2);
+        } else {
+            const auto value = [&](int k) { return largeLanes[k] + Double(largeStepX[k] * x + largeStepY[k] * y); };
+            const Double edge1 = value(1), edge2 = value(2);
+            edge[0] = toFloat(Double(largeSum) - edge1 - edge2);
+            edge[1] = toFloat(edge1);
+            edge[2] = toFloat(edge2);
         }
-        return toFloat(largeLanes[k] + Double(largeStepX[k] * x + largeStepY[k] * y));
     }
 
 private:
     bool small;
 
-    // E at the pixels of the block at (0, 0), and its steps from one pixel to the next: modulo 2^32 where the triangle
-    // is small, or exact in doubles.
+    // E_1 and E_2 at the pixels of the block at (0, 0), their steps from one pixel to the next, and the sum of all
+    // three: modulo 2^32 where the triangle is small, or exact in doubles.
     Int smallLanes[3];
-    std::int32_t stepX[3], stepY[3];
+    std::int32_t stepX[3], stepY[3], smallSum;
     Double largeLanes[3];
-    double largeStepX[3], largeStepY[3];
+    double largeStepX[3], largeStepY[3], largeSum;
 };
 
 // What follows from the edge values of one block.

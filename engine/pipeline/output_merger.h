@@ -69,8 +69,29 @@ inline float4 blendColors(Blend blend, const float4& source, const float4& desti
     return source;
 }
 
-// No NaN and no infinity enters a target: NaN becomes 0, infinities the largest finite number. Returns how many live
-// pixels had one.
+// Four numbers a lane as they lie in memory.
+using Channels = float[4][kLanes];
+inline float4 loadChannels(const Channels& c)
+{
+    return {Float::load(c[0]), Float::load(c[1]), Float::load(c[2]), Float::load(c[3])};
+}
+
+// A colour's channels in memory: NaN becomes 0, infinities the largest finite number. Returns how many live pixels had
+// one.
+[[gnu::noinline]] inline int replaceInvalid(Channels& channels, Mask live)
+{
+    const float largest = std::numeric_limits<float>::max();
+    Mask finite = true;
+    for (float(&channel)[kLanes] : channels) {
+        const Float c = Float::load(channel);
+        finite &= abs(c) <= largest;
+        select(isnan(c), Float(0.0f), clamp(c, -largest, largest)).store(channel);
+    }
+    return count(live & !finite);
+}
+
+// No NaN and no infinity enters a target: they are replaced. Returns how many live pixels had one. The rare case is in
+// a function of its own, so that the colour of all others stays in registers.
 inline int sanitizeColor(float4& color, Mask live)
 {
     // All exponent bits are set in NaN and infinities, and in nothing that is made of numbers below 2.
@@ -78,66 +99,87 @@ inline int sanitizeColor(float4& color, Mask live)
     const Int together = asInt(color.x) | asInt(color.y) | asInt(color.z) | asInt(color.w);
     if (none(live & ((together & exponent) == exponent))) [[likely]]
         return 0;
-
-    const float largest = std::numeric_limits<float>::max();
-    Mask finite = true;
-    for (int c = 0; c < 4; ++c) finite &= abs(color[c]) <= largest;
-    const Mask invalid = live & !finite;
-    if (none(invalid)) return 0;
-    for (int c = 0; c < 4; ++c) {
-        color[c] = select(isnan(color[c]), Float(0.0f), clamp(color[c], -largest, largest));
-    }
-    return count(invalid);
+    alignas(Float) Channels channels;
+    color.x.store(channels[0]);
+    color.y.store(channels[1]);
+    color.z.store(channels[2]);
+    color.w.store(channels[3]);
+    const int invalid = replaceInvalid(channels, live);
+    color = loadChannels(channels);
+    return invalid;
 }
 
-// Merges the colours of one block after the other into their words in a tile. Colours are linear.
+// A block's words in a tile.
 template <Format format>
-class ColorMerger
+struct StoredColor
+{
+    std::array<Int, static_cast<std::size_t>(wordsPerPixel(format))> words{};
+
+    static StoredColor load(const std::int32_t* from)
+    {
+        StoredColor stored;
+        for (std::size_t i = 0; i < stored.words.size(); ++i) stored.words[i] = Int::load(from + i * kLanes);
+        return stored;
+    }
+    void store(std::int32_t* to, Mask where, const StoredColor& elsewhere) const
+    {
+        for (std::size_t i = 0; i < words.size(); ++i)
+            select(where, words[i], elsewhere.words[i]).store(to + i * kLanes);
+    }
+};
+
+// Without blending: the colours of one block after the other into their words in a tile. Neighbours often have one
+// colour, and then its words are there already.
+template <Format format>
+class ColorWriter
 {
 public:
-    explicit ColorMerger(Blend blending) : blend(blending) {}
-
-    // Of a block's live pixels. Returns how many of them had a NaN or an infinity.
-    int merge(std::int32_t* stored, const float4& color, Mask live)
+    // A block's live pixels, linear; `color` stays where it is until the next call. Returns how many of them had a NaN
+    // or an infinity.
+    int write(std::int32_t* words, const Channels& color, Mask live)
     {
-        Words old;
-        for (std::size_t i = 0; i < kWords; ++i) old[i] = Int::load(stored + i * kLanes);
-        const int invalid = blend == Blend::off ? encodeUnlessSame(color, live) : blendWith(old, color, live);
-        for (std::size_t i = 0; i < kWords; ++i) select(live, words[i], old[i]).store(stored + i * kLanes);
+        const auto old = StoredColor<format>::load(words);
+        const int invalid = encodeUnlessSame(color, live);
+        encoded.store(words, live, old);
         return invalid;
     }
 
 private:
-    static constexpr std::size_t kWords = static_cast<std::size_t>(wordsPerPixel(format));
-    using Words = std::array<Int, kWords>;
-
-    // Neighbouring blocks often have one colour, and then the words are there already.
-    int encodeUnlessSame(const float4& color, Mask live)
+    int encodeUnlessSame(const Channels& channels, Mask live)
     {
-        const auto changed = [&](int c) { return asInt(color[c]) ^ asInt(last[c]); };
-        if (hasLast && none((changed(0) | changed(1) | changed(2) | changed(3)) != 0)) return 0;
-        last = color;
-        float4 finite = color;
+        float4 color = loadChannels(channels);
+        if (last != nullptr && isSame(color, loadChannels(*last))) return 0;
         // In all lanes: other pixels may be live in the next block.
-        hasLast = sanitizeColor(finite, true) == 0;
-        words = encodeColor<format>(finite);
-        float4 counted = color;
-        return hasLast ? 0 : sanitizeColor(counted, live);
+        const bool isFinite = sanitizeColor(color, true) == 0;
+        encoded.words = encodeColor<format>(color);
+        last = isFinite ? &channels : nullptr;
+        if (isFinite) [[likely]]
+            return 0;
+        color = loadChannels(channels);
+        return sanitizeColor(color, live);
     }
 
-    int blendWith(const Words& old, float4 color, Mask live)
+    static bool isSame(const float4& a, const float4& b)
     {
-        const int invalid = sanitizeColor(color, live);
-        color = blendColors(blend, isUnorm(format) ? saturate(color) : color, decodeColor<format>(old));
-        if (!isUnorm(format)) sanitizeColor(color, live);  // sums may overflow
-        words = encodeColor<format>(color);
-        return invalid;
+        const auto changed = [](Float x, Float y) { return asInt(x) ^ asInt(y); };
+        return none((changed(a.x, b.x) | changed(a.y, b.y) | changed(a.z, b.z) | changed(a.w, b.w)) != 0);
     }
 
-    Blend blend;
-    bool hasLast = false;
-    float4 last{0.0f};
-    Words words{};
+    const Channels* last = nullptr;
+    StoredColor<format> encoded;
 };
+
+// With it: a block's live pixels, linear. Returns as above.
+template <Format format>
+int blendInto(std::int32_t* words, Blend blend, const Channels& channels, Mask live)
+{
+    const auto old = StoredColor<format>::load(words);
+    float4 color = loadChannels(channels);
+    const int invalid = sanitizeColor(color, live);
+    color = blendColors(blend, isUnorm(format) ? saturate(color) : color, decodeColor<format>(old.words));
+    if (!isUnorm(format)) sanitizeColor(color, live);  // sums may overflow
+    StoredColor<format>{encodeColor<format>(color)}.store(words, live, old);
+    return invalid;
+}
 
 }  // namespace relief::inline RELIEF_WIDTH

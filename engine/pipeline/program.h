@@ -10,6 +10,7 @@
 
 #include "hlsl/signature.h"
 #include "pipeline/interpolate.h"
+#include "pipeline/raster.h"
 #include "texture/shading_scope.h"
 
 namespace relief::inline RELIEF_WIDTH {
@@ -43,10 +44,8 @@ struct ShadedBlock
     unsigned discarded;                     // what it throws away, a bit per lane
     unsigned live;                          // pixels whose result counts
     unsigned quads;                         // those with such a pixel, whole
-    unsigned coverage;                      // pixels within the triangle
-    int x, y;                               // of its upper left pixel, in the target
     int index;                              // in the tile
-    int triangle;                           // in the batch
+    CoveredBlock covered;
 };
 
 // The components of a triangle's three corners.
@@ -105,15 +104,13 @@ template <class Interpolators, class FragmentProgram, int components>
 void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle, const TriangleEdges& edges,
                 const CornerComponents<components>& corners, ShadedBlock& block)
 {
-    // Where nothing is interpolated, SV_POSITION alone may want to know them: the compiler sees whether it does.
-    const auto edgeOf = [&](int k) {
-        if constexpr (components == 0) return edges.at(k, block.x, block.y);
-        return Float::load(block.edge[k]);
-    };
     shading.activeLanes = block.quads;
     const auto input = [&] {
-        const Float edge[3] = {edgeOf(0), edgeOf(1), edgeOf(2)};
-        return interpolate<Interpolators>(triangle, corners, edge, block.coverage, block.x, block.y);
+        Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
+        // Where nothing is interpolated, SV_POSITION alone may want to know them: the compiler sees whether it does.
+        if constexpr (components == 0) edges.at(block.covered.x, block.covered.y, edge);
+        return interpolate<Interpolators>(triangle, corners, edge, block.covered.coverage, block.covered.x,
+                                          block.covered.y);
     };
     const auto store = [&](const float4& color) {
         color.x.store(block.color[0]);
@@ -139,14 +136,14 @@ template <class Interpolators, class FragmentProgram>
     TriangleWeights triangle;
     TriangleEdges edges;
     for (auto next = blocks.begin(); next != blocks.end();) {
-        const int current = next->triangle;
+        const int current = next->covered.triangle;
         const auto& [a, b, c] = corners[current].components;
         components.set(a, b, c);
         triangle.set(batch, current);
         if constexpr (components.kCount == 0) edges.set(batch, current);
         do {
             shadeBlock<Interpolators>(program, triangle, edges, components, *next);
-        } while (++next != blocks.end() && next->triangle == current);
+        } while (++next != blocks.end() && next->covered.triangle == current);
     }
 }
 

@@ -2,6 +2,8 @@
 // imports that are remembered.
 #include "texture/import.h"
 
+#include <algorithm>
+#include <condition_variable>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -223,15 +225,16 @@ public:
 
     Expected<std::shared_ptr<const Texture>> find(const std::string& path, const Settings& settings)
     {
-        const std::lock_guard lock(importing);
+        std::unique_lock lock(importing);
         const std::optional<FileKey> file = keyOf(path);
+        if (file) wasRead.wait(lock, [&] { return std::ranges::find(beingRead, *file) == beingRead.end(); });
         if (file) {
             for (const Import& import : textures) {
                 if (!(import.file == *file && import.settings == settings)) continue;
                 if (const auto texture = import.texture.lock()) return keep(texture);
             }
         }
-        Expected<Picture> picture = pictureOf(path, file);
+        Expected<Picture> picture = pictureOf(path, file, lock);
         if (!picture) return tl::unexpected(picture.error());
         Expected<Texture> imported = importTexture(std::move(*picture), settings);
         if (!imported) return fail(path + ": " + imported.error().message);
@@ -253,7 +256,9 @@ private:
         std::weak_ptr<const ImageFile> picture;
     };
 
-    Expected<Picture> pictureOf(const std::string& path, const std::optional<FileKey>& file)
+    // Reads the file if need be, and meanwhile lets others import theirs.
+    Expected<Picture> pictureOf(const std::string& path, const std::optional<FileKey>& file,
+                                std::unique_lock<std::mutex>& lock)
     {
         std::erase_if(textures, [](const Import& import) { return import.texture.expired(); });
         std::erase_if(pictures, [](const Decoded& decoded) { return decoded.picture.expired(); });
@@ -262,7 +267,12 @@ private:
                 if (Picture picture = decoded.picture.lock()) return picture;
             }
         }
+        if (file) beingRead.push_back(*file);
+        lock.unlock();
         Expected<ImageFile> read = readImage(path);
+        lock.lock();
+        if (file) std::erase(beingRead, *file);
+        wasRead.notify_all();
         if (!read) return tl::unexpected(read.error());
         auto picture = std::make_shared<const ImageFile>(std::move(*read));
         if (file) pictures.push_back({*file, picture});
@@ -281,6 +291,8 @@ private:
     }
 
     std::mutex importing;
+    std::vector<FileKey> beingRead;  // by one thread each; others wait for it
+    std::condition_variable wasRead;
     std::vector<Import> textures;
     std::vector<Decoded> pictures;
     std::vector<std::shared_ptr<const Texture>> recent;

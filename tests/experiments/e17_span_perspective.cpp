@@ -157,7 +157,8 @@ struct EngineRow
         edges.set(batch, 0);
         weights.set(batch, 0);
         for (int x = 0; x < kPixels; x += kBlockWidth) {
-            const Float edge[3] = {edges.at(0, x, 0), edges.at(1, x, 0), edges.at(2, x, 0)};
+            Float edge[3];
+            edges.at(x, 0, edge);
             const BlockWeights w = weights.of(edge, kAllLanes);
             corners.perspective(0, w).store(&u[static_cast<std::size_t>(x * kBlockHeight)]);
             corners.perspective(1, w).store(&v[static_cast<std::size_t>(x * kBlockHeight)]);

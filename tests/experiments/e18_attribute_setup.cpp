@@ -74,7 +74,8 @@ struct FromEdges
     }
     Uv at(int x, int y) const
     {
-        const Float edge[3] = {edges.at(0, x, y), edges.at(1, x, y), edges.at(2, x, y)};
+        Float edge[3];
+        edges.at(x, y, edge);
         const BlockWeights w = weights.of(edge, kAllLanes);
         return {components.perspective(0, w), components.perspective(1, w)};
     }
