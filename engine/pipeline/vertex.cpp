@@ -34,13 +34,21 @@ Float idOf(const Field& field, const std::uint32_t* vertex, const std::uint32_t*
 void readStream(const StreamView& stream, const std::uint32_t* element, std::uint32_t count, Float (&lanes)[4])
 {
     const auto components = static_cast<std::size_t>(stream.components);
+    // Mostly one element after the other: numbers that begin again, with the next instance, do not reach so far.
+    const bool isRun = element[count - 1] - element[0] == count - 1;
+    const std::uint32_t last = isRun ? element[count - 1] : *std::max_element(element, element + count);
     // Four words are read of each, if the last one's lie within the stream.
-    const std::uint32_t last = *std::max_element(element, element + count);
     if (components >= 2 &&
         (last + std::size_t{1}) * components + (components == 3 ? 1 : 0) <= stream.count * components) {
         const std::byte* address[kLanes];
-        for (std::uint32_t i = 0; i < kLanes; ++i)
-            address[i] = reinterpret_cast<const std::byte*>(stream.words + element[i < count ? i : 0] * components);
+        const auto addressOf = [&](std::size_t e) {
+            return reinterpret_cast<const std::byte*>(stream.words + e * components);
+        };
+        if (isRun && count == kLanes) {
+            for (std::size_t i = 0; i < kLanes; ++i) address[i] = addressOf(element[0] + i);
+        } else {
+            for (std::size_t i = 0; i < kLanes; ++i) address[i] = addressOf(element[i < count ? i : 0]);
+        }
         native::IntVector words[4];
         if (components == 2) {
             native::loadTransposedPair(address, words);
