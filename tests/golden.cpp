@@ -31,7 +31,7 @@ void checkFails(const Framebuffer& target, const fs::path& golden, const fs::pat
     REQUIRE_FALSE(result);
     CAPTURE(result.error().message);
     CHECK(result.error().message.find(word) != std::string::npos);
-    CHECK(result.error().message.find("update_goldens") != std::string::npos);
+    CHECK(result.error().message.find("make it the golden") != std::string::npos);
 }
 
 }  // namespace

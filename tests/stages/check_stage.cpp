@@ -27,7 +27,8 @@ Expected<void> checkPicture(const Stage& stage)
 {
     const Expected<Framebuffer> target = renderForGolden(stage, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
-    return checkGolden(*target, goldenPath(stage), std::filesystem::current_path() / "golden_failures");
+    return checkGolden(*target, goldenPath(stage), std::filesystem::current_path() / "golden_failures")
+        .map_error([](const Error& error) { return Error{error.message + " (of all stages: update_goldens)"}; });
 }
 
 // All numbers of threads with all tile sizes; in slow builds, few threads and many, small tiles and large ones.
