@@ -99,7 +99,7 @@ void addBenchOptions(CLI::App& command, BenchOptions& options, PeerOptions& peer
             ->allow_extra_args(false);
     CLI::Option* const live =
         command
-            .add_flag("--live",
+            .add_flag("--live", liveOptions.chosen,
                       "Measures the time from a save of a stage's file to its picture in the window, for the stages "
                       "that follow, or all; takes --size, --threads")
             ->excludes(stage);
@@ -158,7 +158,7 @@ Expected<void> benchWith(const CLI::App& command, const BenchOptions& options, P
         if (command.count("--threads") > 0) peerOptions.threads = options.render.threads;
         return program.benchPeer ? program.benchPeer(peerOptions) : elsewhere("bench --peer mesa");
     }
-    if (command.count("--live") > 0) {
+    if (liveOptions.chosen) {
         const std::string other = otherOption(command, {"--live", "--saves", "--compiler", "--size", "--threads"});
         if (!other.empty()) return fail(other + ": bench --live does not take it; see `relief bench --help`");
         for (const std::string& word : others) {

@@ -25,6 +25,7 @@ struct RenderOptions
 // What `bench --live` measures: the time from a save to the picture.
 struct LiveBenchOptions
 {
+    bool chosen = false;
     std::vector<std::string> stages;  // by number, name or path; none: all of the book
     std::string size = "960x540", compiler;
     int threads = 0, saves = 20;

@@ -61,11 +61,12 @@ std::string completeText(const SourceText& source, const Division& division, uns
            "using namespace relief::samples;\n"
            "extern \"C\" {\n"
            "extern Stage (*const relief_stage)();\n"
-           "extern const detail::CompiledPrograms* const* const relief_programs;\n"
+           "extern const ::relief::detail::CompiledPrograms* const* const relief_programs;\n"
            "Stage (*const relief_stage)() = " +
            stageFunction(source.text) +
            ";\n"
-           "const detail::CompiledPrograms* const* const relief_programs = &detail::compiledPrograms;\n"
+           "const ::relief::detail::CompiledPrograms* const* const relief_programs = "
+           "&::relief::detail::compiledPrograms;\n"
            "[[gnu::visibility(\"hidden\")]] void* __dso_handle = nullptr;\n"
            "}\n";
 }
@@ -137,10 +138,7 @@ Compile::Compile(const Toolchain& toolchain, SourceText itsSource, const Divisio
         objects.push_back(base + ".o");
         std::vector<std::string> words = {toolchain.path};
         words.insert(words.end(), toolchain.words.begin(), toolchain.words.end());
-        for (const char* word : {"-fno-diagnostics-show-caret", "-fdiagnostics-color=never", "-iquote"}) {
-            words.emplace_back(word);
-        }
-        words.insert(words.end(), {home.empty() ? "." : home, "-c", base + ".cpp", "-o", objects.back()});
+        words.insert(words.end(), {"-iquote", home.empty() ? "." : home, "-c", base + ".cpp", "-o", objects.back()});
         running.push_back(start(words));
     }
 }
@@ -221,7 +219,7 @@ bool Compile::read(Process& process) const
     return true;
 }
 
-Compiled Compile::failed(const std::string& printed)
+Compiled Compile::failed(std::string printed)
 {
     for (Process& process : running) end(process);
     running.clear();
@@ -237,7 +235,7 @@ std::optional<Compiled> Compile::poll()
     bool all = true;
     for (Process& process : running) {
         const bool ended = read(process);
-        if (ended && process.status != 0) return failed(process.printed);
+        if (ended && process.status != 0) return failed(std::move(process.printed));
         all = all && ended;
     }
     if (!all) return std::nullopt;

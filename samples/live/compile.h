@@ -88,7 +88,7 @@ private:
     Process start(const std::vector<std::string>& words) const;
     void end(Process& process) const;
     bool read(Process& process) const;
-    Compiled failed(const std::string& printed);
+    Compiled failed(std::string printed);
 
     SourceText source;
     std::string stem;  // of the files

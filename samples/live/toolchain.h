@@ -1,5 +1,5 @@
 // The compilers that live stages are compiled with, and the files that stages are in: what CMake found when the build
-// was configured (toolchain.cpp.in).
+// was configured (found.cpp.in).
 #pragma once
 
 #include <string>
