@@ -30,16 +30,13 @@ double millisecondsSince(Clock::time_point begin)
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-std::string numbered(std::string text, const char* format, unsigned long long number)
-{
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, number);
-    return text + buffer;
-}
-
-// What is compiled: which part this is, the learner's text under its own name, and what the loader looks for.
+// What one compiler gets: which part this is, the learner's text under its own name, and what the loader looks for.
+//
+// Part 0 of several is all but the programs. It runs once for each draw, and is not optimised: that would take as long
+// as the programs do. In the other parts nobody calls the stage's function, so no code is made of it.
 std::string completeText(const SourceText& source, const Division& division, unsigned part)
 {
+    const std::string function = stageFunction(source.text);
     std::string text =
         "#include \"live/headers.h\"\n"
         "namespace relief::inline RELIEF_WIDTH::detail {\n"
@@ -50,10 +47,15 @@ std::string completeText(const SourceText& source, const Division& division, uns
         "    static constexpr unsigned owner([[maybe_unused]] std::uint64_t id) {\n"
         "        switch (id) {\n";
     for (const auto& [id, owner] : division.owners) {
-        text += numbered("            case ", "0x%llx", id) + numbered("ull: return ", "%llu", owner) + ";\n";
+        char row[80];
+        std::snprintf(row, sizeof row, "            case 0x%llxull: return %u;\n", static_cast<unsigned long long>(id),
+                      owner);
+        text += row;
     }
-    text += "            default: return id % " + std::to_string(division.parts) +
-            ";\n        }\n    }\n};\n}\n#line 1 \"" + source.path + "\"\n" + source.text;
+    const std::string others = division.parts < 2 ? "0" : "1 + id % " + std::to_string(division.parts - 1);
+    text += "            default: return " + others + ";\n        }\n    }\n};\n}\n";
+    if (part > 0) text += "namespace relief::samples {\nstatic Stage " + function + "();\n}\n";
+    text += "#line 1 \"" + source.path + "\"\n" + source.text;
     if (part > 0) return text;
     return text +
            "\n#line 1 \"the end of the stage\"\n"
@@ -63,7 +65,7 @@ std::string completeText(const SourceText& source, const Division& division, uns
            "extern Stage (*const relief_stage)();\n"
            "extern const ::relief::detail::CompiledPrograms* const* const relief_programs;\n"
            "Stage (*const relief_stage)() = " +
-           stageFunction(source.text) +
+           function +
            ";\n"
            "const ::relief::detail::CompiledPrograms* const* const relief_programs = "
            "&::relief::detail::compiledPrograms;\n"
@@ -102,12 +104,13 @@ PrivateFolder::~PrivateFolder()
 Division divided(const std::vector<std::uint64_t>& programs)
 {
     const std::set<std::uint64_t> names(programs.begin(), programs.end());
+    if (names.size() != programs.size()) return {.parts = 1, .owners = {}};
     const unsigned processors = std::clamp(std::thread::hardware_concurrency(), 1u, 8u);
-    if (names.size() != programs.size() || names.size() < 3 || processors < 2) return {};
-    Division division{.parts = std::min(processors, static_cast<unsigned>(names.size()))};
+    Division division;
+    if (names.size() > 2) division.parts = 1 + std::min(processors, static_cast<unsigned>(names.size()));
     // Neighbours in the file go to different compilers: they are alike, and so take as long as each other.
     unsigned next = 0;
-    for (const std::uint64_t id : programs) division.owners[id] = next++ % division.parts;
+    for (const std::uint64_t id : programs) division.owners[id] = 1 + next++ % (division.parts - 1);
     return division;
 }
 
@@ -137,7 +140,9 @@ Compile::Compile(const Toolchain& toolchain, SourceText itsSource, const Divisio
         std::ofstream(base + ".cpp", std::ios::binary) << completeText(source, division, part);
         objects.push_back(base + ".o");
         std::vector<std::string> words = {toolchain.path};
-        words.insert(words.end(), toolchain.words.begin(), toolchain.words.end());
+        const std::vector<std::string>& options =
+            part == 0 && division.parts > 1 ? toolchain.callerWords : toolchain.words;
+        words.insert(words.end(), options.begin(), options.end());
         words.insert(words.end(), {"-iquote", home.empty() ? "." : home, "-c", base + ".cpp", "-o", objects.back()});
         running.push_back(start(words));
     }
@@ -247,7 +252,8 @@ std::optional<Compiled> Compile::poll()
         // The linker itself: a compiler that calls it takes ten times as long. Whatever is missing is the program's.
         std::vector<std::string> words = {linkerPath(), "-shared", "--eh-frame-hdr", "-Bsymbolic-functions", "-z",
                                           "muldefs",    "-o",      stem + ".so"};
-        words.insert(words.end(), objects.begin(), objects.end());
+        // Of a function that several parts have, the first one is taken: an optimised one.
+        words.insert(words.end(), objects.rbegin(), objects.rend());
         running.push_back(start(words));
         return std::nullopt;
     }

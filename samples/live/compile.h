@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include <sys/types.h>
 
@@ -19,12 +20,8 @@ class PrivateFolder
 public:
     static Expected<PrivateFolder> create();
     ~PrivateFolder();
-    PrivateFolder(PrivateFolder&& other) noexcept { std::swap(path, other.path); }
-    PrivateFolder& operator=(PrivateFolder&& other) noexcept
-    {
-        std::swap(path, other.path);
-        return *this;
-    }
+    PrivateFolder(PrivateFolder&& other) noexcept : path(std::exchange(other.path, "")), owner(other.owner) {}
+    PrivateFolder& operator=(PrivateFolder&&) = delete;
 
     std::string path;
 
@@ -33,15 +30,15 @@ private:
     pid_t owner = 0;
 };
 
-// Which of several compilers makes code for which of a file's programs (parts.h). One compiler does it all as long as
-// nothing is known about the file.
+// Which of several compilers makes code for which of a file's programs (parts.h); part 0 is all the rest. One part: one
+// compiler does it all.
 struct Division
 {
-    unsigned parts = 1;
-    std::map<std::uint64_t, unsigned> owners;
+    unsigned parts = 2;
+    std::map<std::uint64_t, unsigned> owners;  // of programs that are known; the others go anywhere
 };
 
-// The programs of an object, dealt out: to one compiler if there are only two or if two have the same name.
+// The programs of an object, dealt out. Where two have the same name nothing can be divided.
 Division divided(const std::vector<std::uint64_t>& programs);
 
 struct SourceText

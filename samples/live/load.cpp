@@ -42,7 +42,7 @@ Expected<const Stage*> loadStage(const std::string& path)
     if (!text) return fail(path + ": cannot be read; look at its permissions");
     const Expected<PrivateFolder> folder = PrivateFolder::create();
     if (!folder) return tl::unexpected(folder.error());
-    Compile compile(**toolchain, {source->path, *text}, {}, folder->path, 0);
+    Compile compile(**toolchain, {source->path, *text}, {.parts = 1, .owners = {}}, folder->path, 0);
     const Compiled compiled = compile.wait();
     if (compiled.object.empty()) {
         std::fputs(formatted(compiled.errors).c_str(), stderr);

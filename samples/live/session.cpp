@@ -157,7 +157,7 @@ void Session::hear(std::unique_ptr<Renderer>& renderer, News& news)
         if (&renderer == &incoming) {
             const std::vector<std::uint64_t>& programs = incomingDescription->programs;
             if (division.parts > 1 && namesTwice(programs)) {
-                division = {};
+                division = {.parts = 1, .owners = {}};
                 return begin();
             }
             division = divided(programs);

@@ -14,14 +14,11 @@ bool isThere(const Toolchain& toolchain)
     return ::access(toolchain.path.c_str(), X_OK) == 0;
 }
 
-Expected<const Toolchain*> withHeaders(const Toolchain& toolchain)
+bool hasHeaders(const Toolchain& toolchain)
 {
     std::error_code ignored;
-    if (!std::filesystem::exists(toolchain.precompiled, ignored)) {
-        return fail(toolchain.precompiled +
-                    ": the precompiled headers are missing; build the target relief_live_headers (./relief does)");
-    }
-    return &toolchain;
+    return std::filesystem::exists(toolchain.precompiled, ignored) &&
+           std::filesystem::exists(toolchain.precompiledCaller, ignored);
 }
 
 }  // namespace
@@ -30,8 +27,15 @@ Expected<const Toolchain*> findToolchain(const std::string& name)
 {
     const char* const chosen = std::getenv("RELIEF_LIVE_COMPILER");
     const std::string wanted = !name.empty() ? name : chosen != nullptr ? chosen : "";
+    std::string lacking;
     for (const Toolchain& toolchain : toolchains()) {
-        if (isThere(toolchain) && (wanted.empty() || wanted == toolchain.name)) return withHeaders(toolchain);
+        if (!isThere(toolchain) || (!wanted.empty() && wanted != toolchain.name)) continue;
+        if (hasHeaders(toolchain)) return &toolchain;
+        if (lacking.empty()) lacking = toolchain.name;
+    }
+    if (!lacking.empty()) {
+        return fail("compiler " + lacking + ": its precompiled headers are missing; build the target " +
+                    "relief_live_headers_" + lacking + " (./relief does)");
     }
     if (!wanted.empty()) {
         return fail("compiler " + wanted + ": this build has no such one; write g++ or clang++, install it " +

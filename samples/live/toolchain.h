@@ -11,10 +11,16 @@ namespace relief::samples::live {
 
 struct Toolchain
 {
-    std::string name;                // "g++" or "clang++"
-    std::string path;                // of the compiler
-    std::string precompiled;         // file of the precompiled headers
-    std::vector<std::string> words;  // what every stage is compiled with, the precompiled headers included
+    std::string name;  // "g++" or "clang++"
+    std::string path;  // of the compiler
+
+    // The file of the precompiled headers, and what a stage is compiled with, them included.
+    std::string precompiled;
+    std::vector<std::string> words;
+
+    // The same for what calls the programs, without optimisation.
+    std::string precompiledCaller;
+    std::vector<std::string> callerWords;
 };
 
 // All that CMake found, the fastest first.
