@@ -115,6 +115,8 @@ void Maker::preload(const Inputs& inputs, const InputFiles& files, bool bakes)
     put(message, inputs);
     put(message, files);
     message.put(bakes);
+    if (message.bytes == preloaded) return;
+    preloaded = message.bytes;
     send(socket, message);
 }
 

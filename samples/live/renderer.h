@@ -126,11 +126,13 @@ public:
 
     Expected<std::unique_ptr<Renderer>> make(const std::string& object, const StageSource& source);
 
-    // Loads what the stage reads now, for all renderers that are made later.
+    // Loads what a stage reads, for all renderers that are made later; `bakes`: the baked sphere too (stage 1.23).
+    // Comes back at once.
     void preload(const Inputs& inputs, const InputFiles& files, bool bakes);
 
 private:
     Maker() = default;
+    std::string preloaded;  // the last message about it
     int socket = -1;
     pid_t process = -1;
 };
