@@ -82,8 +82,9 @@ void Session::look(const Look& look)
     if (!current && !incoming && !lastGood.empty()) {
         if (Expected<std::unique_ptr<Renderer>> again = maker.make(lastGood, itsSource)) current = std::move(*again);
     }
-    if (current && !current->drawing()) {
-        current->draw(wanted);
+    Renderer* const newest = incoming ? incoming.get() : current.get();
+    if (newest != nullptr && !newest->drawing()) {
+        newest->draw(wanted);
         waiting = false;
     }
 }
@@ -194,8 +195,7 @@ void Session::hear(std::unique_ptr<Renderer>& renderer, News& news)
     if (heard.failure) return lost(renderer, *heard.failure, news);
     if (heard.refused) {
         complain({{.file = itsSource.path, .message = *heard.refused}}, news);
-        trouble->isRefusal = true;
-        if (&renderer == &incoming) incoming.reset();
+        trouble->isRefusal = true;  // the renderer goes on: another Look may be better
     }
 }
 

@@ -82,7 +82,7 @@ public:
     bool compiling() const { return compile != nullptr; }
 
     // Whether all that was saved and asked for is there, or has a problem.
-    bool idle() const { return !compile && !incoming && !waiting && !(current && current->drawing()); }
+    bool idle() const { return !compile && !(incoming && incoming->drawing()) && !(current && current->drawing()); }
 
     const Times& times() const { return lastTimes; }  // of the last version that was shown
     const StageSource& source() const { return itsSource; }
