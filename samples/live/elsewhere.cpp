@@ -1,4 +1,4 @@
-// Where there is no Linux: what needs live stages says so.
+// Where there is no Linux: whatever needs live stages says so, in one line.
 #include "live/load.h"
 #include "live/new_stage.h"
 #include "live/session.h"
@@ -9,7 +9,7 @@ namespace {
 
 tl::unexpected<Error> needsLinux()
 {
-    return fail("stages are compiled while the program runs on Linux only; build the stage with relief_add_stage()");
+    return fail("a stage is compiled while the program runs on Linux only; build it with relief_add_stage() instead");
 }
 
 }  // namespace
@@ -18,7 +18,16 @@ bool namesFile(const std::string& stage)
 {
     return stage.ends_with(".cpp");
 }
+const std::vector<StageSource>& stageSources()
+{
+    static const std::vector<StageSource> none;
+    return none;
+}
 Expected<StageSource> findSource(const std::string&)
+{
+    return needsLinux();
+}
+Expected<const Toolchain*> findToolchain(const std::string&)
 {
     return needsLinux();
 }
@@ -29,6 +38,38 @@ Expected<const Stage*> loadStage(const std::string&)
 Expected<void> writeNewStage(const std::string&, const std::string&)
 {
     return needsLinux();
+}
+Expected<std::unique_ptr<Maker>> Maker::start()
+{
+    return needsLinux();
+}
+Expected<PrivateFolder> PrivateFolder::create()
+{
+    return needsLinux();
+}
+Expected<std::unique_ptr<Session>> Session::open(const StageSource&, const Look&, Maker&, const SessionOptions&)
+{
+    return needsLinux();
+}
+
+// What no value of theirs ever gets to.
+Maker::~Maker() = default;
+Renderer::~Renderer() = default;
+PrivateFolder::~PrivateFolder() = default;
+Watch::~Watch() = default;
+Compile::~Compile() = default;
+void Session::look(const Look&) {}
+Session::News Session::update(std::chrono::milliseconds)
+{
+    return {};
+}
+std::string formatted(const std::vector<Diagnostic>&)
+{
+    return "";
+}
+std::optional<std::string> readText(const std::string&)
+{
+    return std::nullopt;
 }
 
 }  // namespace relief::samples::live
