@@ -82,7 +82,13 @@ Expected<PrivateFolder> PrivateFolder::create()
     const std::filesystem::path parent = std::filesystem::path(liveFolder()) / "objects";
     std::error_code error;
     std::filesystem::create_directories(parent, error);
-    std::string pattern = (parent / "XXXXXX").string();
+    // What programs left behind that were killed.
+    for (const auto& old : std::filesystem::directory_iterator(parent, error)) {
+        const int process = std::atoi(old.path().filename().c_str());
+        std::error_code ignored;
+        if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) std::filesystem::remove_all(old.path(), ignored);
+    }
+    std::string pattern = (parent / (std::to_string(::getpid()) + "-XXXXXX")).string();
     if (error || ::mkdtemp(pattern.data()) == nullptr) {
         return fail(parent.string() + ": cannot make a folder here for compiled stages (" + std::strerror(errno) +
                     "); make it writable");
