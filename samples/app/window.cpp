@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wall"
@@ -38,32 +37,40 @@ Expected<void> Window::open(int itsWidth, int itsHeight)
     return fail(std::string("view: cannot open a window (") + SDL_GetError() + "); `relief render` needs none");
 }
 
-// stb's letters are rectangles of whole pixels; drawn at twice their size, on black.
+// stb's letters are rectangles of whole pixels; drawn at twice their size on black, each in a cell of its own, so that
+// marks stand below what they mark.
 void Window::write(const std::string& text)
 {
-    constexpr int kScale = 2, kMargin = 8;
-    // Four corners of a rectangle, 16 bytes each: x, y, z, colour.
-    struct Corner
+    constexpr int kScale = 2, kMargin = 8, kCellWidth = 7, kCellHeight = 12;
+    struct Corner  // stb's layout; a letter's rectangle has four
     {
         float x, y, z;
         std::uint32_t color;
     };
-    std::vector<std::array<Corner, 4>> letters(std::min<std::size_t>(text.size() * 24 + 16, 50000));
-    std::string copy = text;
-    const int count = stb_easy_font_print(0.0f, 0.0f, copy.data(), nullptr, letters.data(),
-                                          static_cast<int>(letters.size() * sizeof letters[0]));
-    const int bottom = stb_easy_font_height(copy.data()) * kScale + 2 * kMargin;
+    std::array<std::array<Corner, 4>, 32> parts;
+    const int rows = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
     SDL_SetRenderDrawBlendMode(renderer, SDL_BLENDMODE_BLEND);
     SDL_SetRenderDrawColor(renderer, 0, 0, 0, 200);
-    const SDL_Rect behind = {0, 0, width, std::min(bottom, height)};
+    const SDL_Rect behind = {0, 0, width, std::min(rows * kCellHeight * kScale + 2 * kMargin, height)};
     SDL_RenderFillRect(renderer, &behind);
     SDL_SetRenderDrawColor(renderer, 255, 230, 200, 255);
-    for (int i = 0; i < count; ++i) {
-        const auto& letter = letters[static_cast<std::size_t>(i)];
-        const auto at = [](float v) { return static_cast<int>(v) * kScale; };
-        const SDL_Rect part = {kMargin + at(letter[0].x), kMargin + at(letter[0].y), at(letter[2].x - letter[0].x),
-                               at(letter[2].y - letter[0].y)};
-        SDL_RenderFillRect(renderer, &part);
+    int column = 0, row = 0;
+    for (const char c : text) {
+        if (c == '\n') {
+            column = 0;
+            ++row;
+            continue;
+        }
+        char letter[2] = {static_cast<unsigned char>(c) < 128 ? c : '?', '\0'};
+        const int count = stb_easy_font_print(0.0f, 0.0f, letter, nullptr, parts.data(), sizeof parts);
+        const int x = kMargin + column++ * kCellWidth * kScale, y = kMargin + row * kCellHeight * kScale;
+        for (int i = 0; i < count; ++i) {
+            const auto& part = parts[static_cast<std::size_t>(i)];
+            const auto at = [](float v) { return static_cast<int>(v) * kScale; };
+            const SDL_Rect rectangle = {x + at(part[0].x), y + at(part[0].y), at(part[2].x - part[0].x),
+                                        at(part[2].y - part[0].y)};
+            SDL_RenderFillRect(renderer, &rectangle);
+        }
     }
 }
 
