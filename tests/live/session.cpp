@@ -117,7 +117,7 @@ TEST_CASE("live: a save changes the picture, an error leaves it, a fix brings th
     }));
 }
 
-TEST_CASE("live: camera, properties and size stay over a save; of two saves within 50 ms the second is shown")
+TEST_CASE("live: camera, properties and size stay over a save, and of two saves within 50 ms the second is shown")
 {
     Look look{.width = 64, .height = 36, .camera = {}, .settings = {"tint=0,1,0,1"}, .files = {}, .threads = 1};
     look.camera = Camera{.position = {0.0f, 0.0f, -2.0f}};
