@@ -53,7 +53,7 @@ public:
                                    "': its programs are compiled without -ffp-contract=off, and would give other bits "
                                    "than elsewhere; add that flag (in CMake, link relief_engine, which passes it on)"));
             }
-            return record(makeDraw(detail::kPrograms<VertexProgram, FragmentProgram>, eraseProgram(vertexProgram),
+            return record(makeDraw(detail::programsOf<VertexProgram, FragmentProgram>(), eraseProgram(vertexProgram),
                                    eraseProgram(fragmentProgram), mesh, state, part));
         }
     }

@@ -53,14 +53,24 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
         ->capture_default_str();
 }
 
+void addCompilerOption(CLI::App& command, std::string& compiler)
+{
+    command.add_option("--compiler", compiler, "That compiles stages while the program runs; default: the fastest")
+        ->check(CLI::IsMember({"g++", "clang++"}));
+}
+
 void addInputOptions(CLI::App& command, RenderOptions& options)
 {
-    command.add_option("stage", options.stage, "A stage, by number (1.07) or name (07_central_difference)")->required();
+    command
+        .add_option("stage", options.stage,
+                    "A stage, by number (1.07) or name (07_central_difference), or a file with one of your own "
+                    "(my_shader.cpp)")
+        ->required();
     addPictureOptions(command, options);
 }
 
 // All but --stage are of no use without it; --peer takes size and threads too.
-void addBenchOptions(CLI::App& command, BenchOptions& options, PeerOptions& peerOptions)
+void addBenchOptions(CLI::App& command, BenchOptions& options, PeerOptions& peerOptions, LiveBenchOptions& liveOptions)
 {
     addPictureOptions(command, options.render);
     command.add_option("--rounds", options.rounds, "How often each stage has its turn")
@@ -82,10 +92,23 @@ void addBenchOptions(CLI::App& command, BenchOptions& options, PeerOptions& peer
     }
     CLI::Option* const stage =
         command
-            .add_option("--stage", options.stages,
-                        "Measures stages, by number or name, on one thread unless told otherwise; may be repeated: "
-                        "they take turns, and each is compared with the first")
+            .add_option(
+                "--stage", options.stages,
+                "Measures stages, by number, name or file, on one thread unless told otherwise; may be repeated: "
+                "they take turns, and each is compared with the first")
             ->allow_extra_args(false);
+    CLI::Option* const live =
+        command
+            .add_flag("--live", liveOptions.chosen,
+                      "Measures the time from a save of a stage's file to its picture in the window, for the stages "
+                      "that follow, or all; takes --size, --threads")
+            ->excludes(stage);
+    command.add_option("--saves", liveOptions.saves, "With --live: how often each stage is saved")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str()
+        ->needs(live);
+    addCompilerOption(command, liveOptions.compiler);
+    command.get_option("--compiler")->needs(live);
     CLI::Option* const peer =
         command
             .add_option("--peer", peerOptions.peer,
@@ -93,7 +116,8 @@ void addBenchOptions(CLI::App& command, BenchOptions& options, PeerOptions& peer
                         "faster Relief is and how far the pictures agree; takes --size (1920x1080 unless told "
                         "otherwise) and --threads (all)")
             ->check(CLI::IsMember({"mesa"}))
-            ->excludes(stage);
+            ->excludes(stage)
+            ->excludes(live);
     command.add_option("--scene", peerOptions.scenes, "With --peer: one of the test scenes alone; may be repeated")
         ->allow_extra_args(false)
         ->needs(peer);
@@ -119,7 +143,7 @@ std::string otherOption(const CLI::App& command, const std::vector<std::string>&
 }
 
 Expected<void> benchWith(const CLI::App& command, const BenchOptions& options, PeerOptions peerOptions,
-                         const Program& program)
+                         LiveBenchOptions liveOptions, const Program& program)
 {
     const std::vector<std::string> others = command.remaining();
     const auto unknown = [&](const std::string& what) {
@@ -133,6 +157,17 @@ Expected<void> benchWith(const CLI::App& command, const BenchOptions& options, P
         if (command.count("--size") > 0) peerOptions.size = options.render.size;
         if (command.count("--threads") > 0) peerOptions.threads = options.render.threads;
         return program.benchPeer ? program.benchPeer(peerOptions) : elsewhere("bench --peer mesa");
+    }
+    if (liveOptions.chosen) {
+        const std::string other = otherOption(command, {"--live", "--saves", "--compiler", "--size", "--threads"});
+        if (!other.empty()) return fail(other + ": bench --live does not take it; see `relief bench --help`");
+        for (const std::string& word : others) {
+            if (word.starts_with("-")) return unknown("bench --live");
+        }
+        liveOptions.stages = others;
+        if (command.count("--size") > 0) liveOptions.size = options.render.size;
+        if (command.count("--threads") > 0) liveOptions.threads = options.render.threads;
+        return program.benchLive ? program.benchLive(liveOptions) : elsewhere("bench --live");
     }
     if (!options.stages.empty()) {
         if (!others.empty()) return unknown("bench --stage");
@@ -226,7 +261,16 @@ int runProgram(int argc, char** argv, const Program& program)
     command = app.add_subcommand("render", "Renders a stage to a PNG file");
     addInputOptions(*command, options);
     command->add_option("-o,--output", output, "The file; default: the stage's name")->type_name("FILE.png");
-    command->callback([&] { run("render", program.render, options, output); });
+    bool watch = false;
+    command->add_flag("--watch", watch, "Writes the picture again whenever the stage's file is saved");
+    addCompilerOption(*command, options.compiler);
+    command->callback([&] { run("render", watch ? program.renderAtEverySave : program.render, options, output); });
+
+    command = app.add_subcommand("new", "Writes a stage of your own, complete and with comments, into one file");
+    std::string newFile, from;
+    command->add_option("file", newFile, "The file, such as my_shader.cpp")->required()->type_name("FILE.cpp");
+    command->add_option("--from", from, "A stage to begin with, by number, name or file")->type_name("STAGE");
+    command->callback([&] { run("new", program.newStage, newFile, from); });
 
     command = app.add_subcommand("gallery", "Renders every stage, and a page that shows them");
     std::string folder = "gallery";
@@ -234,8 +278,9 @@ int runProgram(int argc, char** argv, const Program& program)
     command->add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
     command->callback([&] { run("gallery", program.gallery, folder, options.threads); });
 
-    command = app.add_subcommand("view", "Shows a stage in a window");
+    command = app.add_subcommand("view", "Shows a stage in a window, and again whenever its file is saved");
     addInputOptions(*command, options);
+    addCompilerOption(*command, options.compiler);
     command->add_option("--frames", frames, "Close after this many frames; 0: when the user does")
         ->check(CLI::Range(0, 1000000));
     command->callback([&] { run("view", program.view, options, frames); });
@@ -246,7 +291,7 @@ int runProgram(int argc, char** argv, const Program& program)
     command->callback([&] { run("hash", program.hash, options, tileSize); });
 
     command = app.add_subcommand("signature", "Prints what a stage's vertex programs hand to its fragment programs");
-    command->add_option("stage", options.stage, "A stage, by number or name")->required();
+    command->add_option("stage", options.stage, "A stage, by number, name or file")->required();
     command->add_option("--set", options.settings, "A property, as name=value; may be repeated");
     command->add_option("--binormal", binormal, "For stages with both variants: where the binormal is computed")
         ->check(CLI::IsMember({"vertex", "fragment"}));
@@ -259,12 +304,14 @@ int runProgram(int argc, char** argv, const Program& program)
 
     command = app.add_subcommand("bench",
                                  "Measures how fast frames are: of test scenes (with options of Google Benchmark), of "
-                                 "stages with --stage, or beside another rasterizer with --peer");
+                                 "stages with --stage, beside another rasterizer with --peer, or from a save to the "
+                                 "picture with --live");
     BenchOptions benchOptions;
     PeerOptions peerOptions;
-    addBenchOptions(*command, benchOptions, peerOptions);
+    LiveBenchOptions liveOptions;
+    addBenchOptions(*command, benchOptions, peerOptions, liveOptions);
     command->allow_extras();
-    command->callback([&, command] { result = benchWith(*command, benchOptions, peerOptions, program); });
+    command->callback([&, command] { result = benchWith(*command, benchOptions, peerOptions, liveOptions, program); });
 
     command = app.add_subcommand("report", "Measures what a chapter claims, and writes it down: text, table and plot");
     ReportOptions reportOptions;

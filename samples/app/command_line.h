@@ -12,6 +12,8 @@ struct Program
 {
     Expected<void> (*list)(bool json) = nullptr;
     Expected<void> (*render)(const RenderOptions& options, const std::string& output) = nullptr;
+    Expected<void> (*renderAtEverySave)(const RenderOptions& options, const std::string& output) = nullptr;
+    Expected<void> (*newStage)(const std::string& path, const std::string& from) = nullptr;
     Expected<void> (*gallery)(const std::string& folder, int threads) = nullptr;
     Expected<void> (*view)(const RenderOptions& options, int frames) = nullptr;
     Expected<void> (*hash)(const RenderOptions& options, int tileSize) = nullptr;
@@ -19,6 +21,7 @@ struct Program
     Expected<void> (*explain)(const RenderOptions& options, bool json) = nullptr;
     Expected<void> (*bench)(const std::vector<std::string>& arguments) = nullptr;
     Expected<void> (*benchStages)(const BenchOptions& options) = nullptr;
+    Expected<void> (*benchLive)(const LiveBenchOptions& options) = nullptr;
     Expected<void> (*benchPeer)(const PeerOptions& options) = nullptr;
     const char* reportName = "";
     Expected<void> (*report)(const ReportOptions& options) = nullptr;  // of that name

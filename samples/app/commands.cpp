@@ -96,7 +96,7 @@ Expected<void> signature(const RenderOptions& options, const std::string& binorm
 {
     RenderOptions chosen = options;
     const bool perFragment = binormal.empty() ? kBinormalPerFragment : binormal == "fragment";
-    const Expected<const Stage*> stage = findStage(options.stage);
+    const Expected<const Stage*> stage = stageOf(options.stage);
     if (!stage) return tl::unexpected(stage.error());
     const std::vector<Property>& all = (*stage)->properties;
     const bool hasVariants =

@@ -8,6 +8,9 @@ namespace relief::samples {
 
 Expected<void> list(bool json);
 Expected<void> render(const RenderOptions& options, const std::string& output);
+Expected<void> renderAtEverySave(const RenderOptions& options, const std::string& output);
+Expected<void> newStage(const std::string& path, const std::string& from);
+Expected<void> benchLive(const LiveBenchOptions& options);
 Expected<void> hash(const RenderOptions& options, int tileSize);
 Expected<void> signature(const RenderOptions& options, const std::string& binormal);
 Expected<void> explain(const RenderOptions& options, bool json);

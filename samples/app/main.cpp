@@ -10,7 +10,9 @@ using namespace relief::samples;
 
 #if defined(RELIEF_HAS_WINDOW)
 constexpr auto showWindow = view;
+constexpr auto measureSaves = benchLive;
 #else
+constexpr Expected<void> (*measureSaves)(const LiveBenchOptions&) = nullptr;
 Expected<void> showWindow(const RenderOptions&, int)
 {
     return fail(
@@ -26,9 +28,12 @@ int main(int argc, char** argv)
     return runProgram(argc, argv,
                       {.list = list,
                        .render = render,
+                       .renderAtEverySave = renderAtEverySave,
+                       .newStage = newStage,
                        .gallery = gallery,
                        .view = showWindow,
                        .hash = hash,
                        .signature = signature,
-                       .explain = explain});
+                       .explain = explain,
+                       .benchLive = measureSaves});
 }

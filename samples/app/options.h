@@ -19,6 +19,16 @@ struct RenderOptions
     std::string camera;  // "X,Y,Z"; empty: the stage's
     bool showTangents = false;
     float tangentScale = 0.1f, tangentOffset = 0.01f;
+    std::string compiler;  // of live stages: "g++" or "clang++"; empty: the fastest
+};
+
+// What `bench --live` measures: the time from a save to the picture.
+struct LiveBenchOptions
+{
+    bool chosen = false;
+    std::vector<std::string> stages;  // by number, name or path; none: all of the book
+    std::string size = "960x540", compiler;
+    int threads = 0, saves = 20;
 };
 
 // What `bench --stage` measures. --set and the files go to every stage.

@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "live/load.h"
+
 namespace relief::samples {
 
 Expected<Size> parseSize(const std::string& text)
@@ -19,9 +21,11 @@ Expected<Size> parseSize(const std::string& text)
     return size;
 }
 
-namespace {
+Expected<const Stage*> stageOf(const std::string& name)
+{
+    return live::namesFile(name) ? live::loadStage(name) : findStage(name);
+}
 
-// "X,Y,Z": a camera there that looks at the origin.
 Expected<Camera> parseCamera(const std::string& text)
 {
     const Error error = {"--camera " + text +
@@ -42,11 +46,9 @@ Expected<Camera> parseCamera(const std::string& text)
     return camera;
 }
 
-}  // namespace
-
 Expected<PreparedStage> prepare(const RenderOptions& options)
 {
-    const Expected<const Stage*> stage = findStage(options.stage);
+    const Expected<const Stage*> stage = stageOf(options.stage);
     if (!stage) return tl::unexpected(stage.error());
     Expected<PreparedStage> prepared = PreparedStage::prepare(**stage, options.settings, options.files);
     if (prepared && !options.camera.empty()) {
@@ -56,6 +58,26 @@ Expected<PreparedStage> prepare(const RenderOptions& options)
     }
     if (prepared && options.showTangents) prepared->tangentLines = {options.tangentOffset, options.tangentScale};
     return prepared;
+}
+
+Expected<live::Look> lookOf(const RenderOptions& options)
+{
+    const Expected<Size> size = parseSize(options.size);
+    if (!size) return tl::unexpected(size.error());
+    live::Look look{.width = size->width,
+                    .height = size->height,
+                    .camera = {},
+                    .settings = options.settings,
+                    .files = options.files,
+                    .threads = options.threads,
+                    .showTangents = options.showTangents,
+                    .tangentScale = options.tangentScale,
+                    .tangentOffset = options.tangentOffset};
+    if (options.camera.empty()) return look;
+    const Expected<Camera> camera = parseCamera(options.camera);
+    if (!camera) return tl::unexpected(camera.error());
+    look.camera = *camera;
+    return look;
 }
 
 }  // namespace relief::samples

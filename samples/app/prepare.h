@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/render.h"
+#include "live/renderer.h"
 #include "options.h"
 
 namespace relief::samples {
@@ -14,7 +15,16 @@ struct Size
 // "WIDTHxHEIGHT", 1 to 16384 each.
 Expected<Size> parseSize(const std::string& text);
 
+// A stage of this program by number or name, or of a file (its name ends with .cpp), which is compiled and loaded here.
+Expected<const Stage*> stageOf(const std::string& name);
+
 // The stage that the options name, with their settings and files.
 Expected<PreparedStage> prepare(const RenderOptions& options);
+
+// "X,Y,Z": a camera there that looks at the origin.
+Expected<Camera> parseCamera(const std::string& text);
+
+// What the options say of the picture, for a stage that is compiled while the program runs.
+Expected<live::Look> lookOf(const RenderOptions& options);
 
 }  // namespace relief::samples

@@ -1,5 +1,5 @@
-// The window: a stage that can be turned, zoomed and changed while it runs. SDL2 shows the pixels; every one of them is
-// computed by the engine.
+// The window: a stage that can be turned, zoomed and changed while it runs, and that follows its file: what is saved is
+// compiled, and drawn by another process (live/session.h). SDL2 shows the pixels.
 //
 //   drag           orbit                     up, down    choose a property
 //   wheel          zoom                      + and -     change it (shift: ten times as fast)
@@ -7,13 +7,13 @@
 //   F2             before/after: left half the previous stage, right half this one
 //   Q, escape      close
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-
-#include <SDL.h>
+#include <map>
 
 #include "commands.h"
+#include "live/session.h"
+#include "window.h"
 
 namespace relief::samples {
 
@@ -40,62 +40,138 @@ struct Orbit
     }
 };
 
+std::string setting(const Property& p, const glm::vec4& value)
+{
+    std::string text = p.name + "=";
+    for (int i = 0; i < p.components; ++i) {
+        char number[32];
+        std::snprintf(number, sizeof number, "%s%.9g", i > 0 ? "," : "", static_cast<double>(value[i]));
+        text += number;
+    }
+    return text;
+}
+
 struct Viewer
 {
+    live::Maker& maker;
     const RenderOptions& options;
-    std::size_t index = 0;
-    PreparedStage current, previous;
-    Orbit orbit{Camera{}};
+    live::Look look;
+    std::unique_ptr<live::Session> current, previous;
+    std::map<std::string, glm::vec4> changed;  // properties
     std::size_t property = 0;
-    bool compare = false;
-    bool running = true;
+    bool running = true, dirty = true;
 
-    Expected<void> open(std::size_t stage, bool keepSettings);
+    Expected<std::unique_ptr<live::Session>> sessionOf(const live::StageSource& source)
+    {
+        return live::Session::open(source, look, maker, {.compiler = options.compiler});
+    }
+    Expected<void> open(const live::StageSource& source);
+    void step(int direction);
+    void compare();
     void key(SDL_Keycode key, bool fast);
     void change(float direction);
-    std::string title(double milliseconds) const;
-    void draw(Framebuffer& target, Framebuffer& scratch, Frame& frame, Frame& scratchFrame);
+    void turn(float yaw, float pitch, float zoom);
+    void ask();
+    void handleEvents();
+    void update(int patience);
+    std::vector<std::uint32_t> pixels() const;
+    std::string title() const;
 };
 
-Expected<void> Viewer::open(std::size_t stage, bool keepSettings)
+Expected<void> Viewer::open(const live::StageSource& source)
 {
-    const std::vector<std::string> none;
-    Expected<PreparedStage> opened = PreparedStage::prepare(allStages()[stage], keepSettings ? options.settings : none,
-                                                            keepSettings ? options.files : InputFiles{});
+    Expected<std::unique_ptr<live::Session>> opened = sessionOf(source);
     if (!opened) return tl::unexpected(opened.error());
-    Expected<PreparedStage> before = PreparedStage::prepare(allStages()[stage == 0 ? 0 : stage - 1]);
-    if (!before) return tl::unexpected(before.error());
-    if (options.showTangents) opened->tangentLines = {options.tangentOffset, options.tangentScale};
-    index = stage;
     current = std::move(*opened);
-    previous = std::move(*before);
-    orbit = Orbit(current.camera());
+    previous.reset();
+    changed.clear();
     property = 0;
     return {};
 }
 
+// The stage before this one in the book, or after it.
+void Viewer::step(int direction)
+{
+    const std::vector<live::StageSource>& all = live::stageSources();
+    const auto is = [this](const live::StageSource& s) { return s.path == current->source().path; };
+    const auto here = std::find_if(all.begin(), all.end(), is);
+    if (here == all.end()) return;
+    const auto count = static_cast<std::ptrdiff_t>(all.size());
+    const auto next = static_cast<std::size_t>((here - all.begin() + direction + count) % count);
+    look.settings.clear();
+    look.files = {};
+    look.camera.reset();
+    if (const Expected<void> opened = open(all[next]); !opened) {
+        std::fprintf(stderr, "relief: %s\n", opened.error().message.c_str());
+    }
+}
+
+void Viewer::compare()
+{
+    if (previous) {
+        previous.reset();
+        return;
+    }
+    const std::vector<live::StageSource>& all = live::stageSources();
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        if (all[i].path != current->source().path) continue;
+        if (Expected<std::unique_ptr<live::Session>> opened = sessionOf(all[i - 1])) previous = std::move(*opened);
+    }
+    ask();
+}
+
+// Draws what the user sees now.
+void Viewer::ask()
+{
+    if (current->stage() == nullptr) return;
+    look.settings = options.settings;
+    for (const Property& p : current->stage()->stage.properties) {
+        if (changed.count(p.name) != 0) look.settings.push_back(setting(p, changed.at(p.name)));
+    }
+    current->look(look);
+    if (!previous) return;
+    // The camera only where the two belong together.
+    live::Look other = look;
+    if (previous->source().folder != current->source().folder) other.camera.reset();
+    previous->look(other);
+}
+
 void Viewer::change(float direction)
 {
-    if (current.properties.empty()) return;
-    Property& p = current.properties[property];
-    const float step = (p.maximum - p.minimum) / 200.0f * direction;
-    p.value.x = std::clamp(p.value.x + step, p.minimum, p.maximum);
+    if (current->stage() == nullptr || current->stage()->stage.properties.empty()) return;
+    const std::vector<Property>& all = current->stage()->stage.properties;
+    const Property& p = all[std::min(property, all.size() - 1)];
+    glm::vec4& value = changed.try_emplace(p.name, p.value).first->second;
+    value.x = std::clamp(value.x + (p.maximum - p.minimum) / 200.0f * direction, p.minimum, p.maximum);
+    ask();
+}
+
+void Viewer::turn(float yaw, float pitch, float zoom)
+{
+    if (current->picture().version == 0) return;
+    const Camera camera = look.camera.value_or(current->picture().drawn.camera);
+    Orbit orbit(camera);
+    orbit.yaw += yaw;
+    orbit.pitch = std::clamp(orbit.pitch + pitch, -89.0f, 89.0f);
+    orbit.distance = std::clamp(orbit.distance * zoom, 0.1f, 50.0f);
+    look.camera = orbit.applied(camera);
+    ask();
 }
 
 void Viewer::key(SDL_Keycode pressed, bool fast)
 {
-    const std::size_t properties = std::max<std::size_t>(1, current.properties.size());
-    Expected<void> opened;
+    const std::size_t count =
+        current->stage() != nullptr ? std::max<std::size_t>(1, current->stage()->stage.properties.size()) : 1;
     switch (pressed) {
         case SDLK_q:
         case SDLK_ESCAPE:
             running = false;
             break;
         case SDLK_UP:
-            property = (property + properties - 1) % properties;
+            property = (property + count - 1) % count;
             break;
         case SDLK_DOWN:
-            property = (property + 1) % properties;
+            property = (property + 1) % count;
             break;
         case SDLK_MINUS:
         case SDLK_KP_MINUS:
@@ -107,137 +183,108 @@ void Viewer::key(SDL_Keycode pressed, bool fast)
             change(fast ? 10.0f : 1.0f);
             break;
         case SDLK_LEFT:
-            opened = open(index == 0 ? allStages().size() - 1 : index - 1, false);
+            step(-1);
             break;
         case SDLK_RIGHT:
-            opened = open((index + 1) % allStages().size(), false);
+            step(1);
             break;
         case SDLK_r:
-            opened = open(index, false);
+            changed.clear();
+            look.camera.reset();
+            ask();
             break;
         case SDLK_F2:
-            compare = !compare;
+            compare();
             break;
         default:
             break;
     }
-    if (!opened) std::fprintf(stderr, "relief: %s\n", opened.error().message.c_str());
 }
 
-std::string Viewer::title(double milliseconds) const
-{
-    char text[256];
-    std::string chosen = "no properties";
-    if (!current.properties.empty()) {
-        const Property& p = current.properties[property];
-        std::snprintf(text, sizeof text, "%s = %g", p.name.c_str(), static_cast<double>(p.value.x));
-        chosen = text;
-    }
-    std::snprintf(text, sizeof text, "%s %s%s | %s | %.1f ms", current.stage->id.c_str(), current.stage->title.c_str(),
-                  compare ? " (left: the stage before)" : "", chosen.c_str(), milliseconds);
-    return text;
-}
-
-void Viewer::draw(Framebuffer& target, Framebuffer& scratch, Frame& frame, Frame& scratchFrame)
-{
-    const int width = target.width(), height = target.height();
-    const Camera camera = orbit.applied(current.camera());
-    current.record(frame, width, height, camera);
-    frame.run();
-    if (!compare) return;
-
-    // The previous stage, with the same camera where the two belong together and the same values of the properties that
-    // both have; its left half is shown.
-    for (Property& p : previous.properties) {
-        for (const Property& mine : current.properties) {
-            if (mine.name == p.name) p.value = mine.value;
-        }
-    }
-    const bool together = previous.stage->folder == current.stage->folder;
-    previous.record(scratchFrame, width, height, together ? camera : previous.camera());
-    scratchFrame.run();
-    for (int y = 0; y < height; ++y) {
-        const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-        std::copy_n(scratch.color8().data() + row, width / 2, target.color8().data() + row);
-    }
-}
-
-bool handleEvents(Viewer& viewer)
+void Viewer::handleEvents()
 {
     SDL_Event event;
     while (SDL_PollEvent(&event) != 0) {
-        if (event.type == SDL_QUIT) viewer.running = false;
-        if (event.type == SDL_KEYDOWN) viewer.key(event.key.keysym.sym, (event.key.keysym.mod & KMOD_SHIFT) != 0);
-        if (event.type == SDL_MOUSEWHEEL) {
-            viewer.orbit.distance = std::clamp(viewer.orbit.distance * (event.wheel.y > 0 ? 0.9f : 1.11f), 0.1f, 50.0f);
-        }
+        dirty = true;
+        if (event.type == SDL_QUIT) running = false;
+        if (event.type == SDL_KEYDOWN) key(event.key.keysym.sym, (event.key.keysym.mod & KMOD_SHIFT) != 0);
+        if (event.type == SDL_MOUSEWHEEL) turn(0.0f, 0.0f, event.wheel.y > 0 ? 0.9f : 1.11f);
         if (event.type == SDL_MOUSEMOTION && (event.motion.state & SDL_BUTTON_LMASK) != 0) {
-            viewer.orbit.yaw += static_cast<float>(event.motion.xrel) * 0.4f;
-            viewer.orbit.pitch =
-                std::clamp(viewer.orbit.pitch + static_cast<float>(event.motion.yrel) * 0.4f, -89.0f, 89.0f);
+            turn(static_cast<float>(event.motion.xrel) * 0.4f, static_cast<float>(event.motion.yrel) * 0.4f, 1.0f);
         }
     }
-    return viewer.running;
 }
 
-// What SDL gives, freed in the right order.
-struct Window
+void Viewer::update(int patience)
 {
-    SDL_Window* window = nullptr;
-    SDL_Renderer* renderer = nullptr;
-    SDL_Texture* texture = nullptr;
+    const live::Session::News news = current->update(std::chrono::milliseconds(patience));
+    dirty = dirty || news.any();
+    if (news.problem && current->problem() != nullptr) std::fputs(current->problem()->text().c_str(), stderr);
+    if (previous) dirty = previous->update().any() || dirty;
+}
 
-    Window() = default;
-    Window(const Window&) = delete;
-    Window& operator=(const Window&) = delete;
-    ~Window()
-    {
-        if (texture != nullptr) SDL_DestroyTexture(texture);
-        if (renderer != nullptr) SDL_DestroyRenderer(renderer);
-        if (window != nullptr) SDL_DestroyWindow(window);
-        SDL_Quit();
+std::vector<std::uint32_t> Viewer::pixels() const
+{
+    std::vector<std::uint32_t> all = current->picture().pixels;
+    if (!previous || previous->picture().pixels.size() != all.size()) return all;
+    const auto width = static_cast<std::size_t>(look.width);
+    for (std::size_t row = 0; row < all.size(); row += width) {
+        std::copy_n(previous->picture().pixels.data() + row, width / 2, all.data() + row);
     }
+    return all;
+}
 
-    bool open(int width, int height)
-    {
-        if (SDL_Init(SDL_INIT_VIDEO) != 0) return false;
-        window = SDL_CreateWindow("Relief", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height, 0);
-        if (window == nullptr) return false;
-        renderer = SDL_CreateRenderer(window, -1, 0);
-        if (renderer == nullptr) return false;
-        texture = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGBA32, SDL_TEXTUREACCESS_STREAMING, width, height);
-        return texture != nullptr;
+std::string Viewer::title() const
+{
+    if (current->stage() == nullptr) return current->source().stem + " | compiling ...";
+    const Stage& stage = current->stage()->stage;
+    char text[256];
+    std::string chosen = "no properties";
+    if (!stage.properties.empty()) {
+        const Property& p = stage.properties[std::min(property, stage.properties.size() - 1)];
+        const glm::vec4 value = changed.count(p.name) != 0 ? changed.at(p.name) : p.value;
+        std::snprintf(text, sizeof text, "%s = %g", p.name.c_str(), static_cast<double>(value.x));
+        chosen = text;
     }
-};
+    std::snprintf(text, sizeof text, "%s %s%s | %s | %.1f ms%s", stage.id.c_str(), stage.title.c_str(),
+                  previous ? " (left: the stage before)" : "", chosen.c_str(), current->picture().drawn.milliseconds,
+                  current->compiling() ? " | compiling ..." : "");
+    return text;
+}
 
 }  // namespace
 
 Expected<void> view(const RenderOptions& options, int frames)
 {
-    const Expected<const Stage*> stage = findStage(options.stage);
-    if (!stage) return tl::unexpected(stage.error());
-    const Expected<Size> size = parseSize(options.size);
-    if (!size) return tl::unexpected(size.error());
-    Viewer viewer{.options = options, .current = {}, .previous = {}};
-    const Expected<void> opened = viewer.open(static_cast<std::size_t>(*stage - allStages().data()), true);
-    if (!opened) return opened;
+    const Expected<live::StageSource> source = live::findSource(options.stage);
+    if (!source) return tl::unexpected(source.error());
+    const Expected<live::Look> look = lookOf(options);
+    if (!look) return tl::unexpected(look.error());
+    const Expected<std::unique_ptr<live::Maker>> maker = live::Maker::start();  // before there is a window
+    if (!maker) return tl::unexpected(maker.error());
+    Viewer viewer{.maker = **maker, .options = options, .look = *look, .current = {}, .previous = {}, .changed = {}};
+    if (const Expected<void> opened = viewer.open(*source); !opened) return opened;
 
     Window window;
-    if (!window.open(size->width, size->height)) {
-        return fail(std::string("view: cannot open a window (") + SDL_GetError() + "); `relief render` needs none");
-    }
-    Expected<Framebuffer> target = Framebuffer::create(size->width, size->height);
-    if (!target) return tl::unexpected(target.error());
-    Framebuffer scratch = *target;
-    Frame frame(*target, {.threads = options.threads}), scratchFrame(scratch, {.threads = options.threads});
-    for (int shown = 0; handleEvents(viewer) && (frames == 0 || shown < frames); ++shown) {
-        const auto begin = std::chrono::steady_clock::now();
-        viewer.draw(*target, scratch, frame, scratchFrame);
-        const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
-        SDL_SetWindowTitle(window.window, viewer.title(time.count()).c_str());
-        SDL_UpdateTexture(window.texture, nullptr, target->color8().data(), size->width * 4);
-        SDL_RenderCopy(window.renderer, window.texture, nullptr, nullptr);
-        SDL_RenderPresent(window.renderer);
+    if (const Expected<void> opened = window.open(look->width, look->height); !opened) return opened;
+    int shown = 0;
+    while (viewer.running && (frames == 0 || shown < frames)) {
+        viewer.handleEvents();
+        viewer.update(10);
+        if (!viewer.dirty) continue;
+        viewer.dirty = false;
+        const live::Session& session = *viewer.current;
+        const live::Problem* const problem = session.problem();
+        if (problem != nullptr && problem->isRefusal && session.picture().version == 0) {
+            return fail(problem->diagnostics.front().message);
+        }
+        window.setTitle(viewer.title());
+        window.show(viewer.pixels(), problem != nullptr ? problem->text() : "");
+        if (frames > 0 && session.picture().version > 0 && session.idle()) {
+            ++shown;
+            viewer.ask();
+        }
+        if (frames > 0 && problem != nullptr) return fail(options.stage + ": see above");
     }
     return {};
 }

@@ -8,6 +8,10 @@ Expected<const Stage*> findStage(const std::string& name)
 {
     std::string closest;
     for (const Stage& stage : allStages()) {
+        if (stage.folder.empty()) {  // a user's own
+            if (name == stage.stem) return &stage;
+            continue;
+        }
         // 1.06 may be written 1.6, and 06_rotated_tangent without its number.
         const std::string shortId = stage.id[2] == '0' ? stage.id.substr(0, 2) + stage.id.substr(3) : stage.id;
         const std::string bare = stage.stem.substr(3);

@@ -1,0 +1,75 @@
+// Where there is no Linux: whatever needs live stages says so, in one line.
+#include "live/load.h"
+#include "live/new_stage.h"
+#include "live/session.h"
+
+namespace relief::samples::live {
+
+namespace {
+
+tl::unexpected<Error> needsLinux()
+{
+    return fail("a stage is compiled while the program runs on Linux only; build it with relief_add_stage() instead");
+}
+
+}  // namespace
+
+bool namesFile(const std::string& stage)
+{
+    return stage.ends_with(".cpp");
+}
+const std::vector<StageSource>& stageSources()
+{
+    static const std::vector<StageSource> none;
+    return none;
+}
+Expected<StageSource> findSource(const std::string&)
+{
+    return needsLinux();
+}
+Expected<const Toolchain*> findToolchain(const std::string&)
+{
+    return needsLinux();
+}
+Expected<const Stage*> loadStage(const std::string&)
+{
+    return needsLinux();
+}
+Expected<void> writeNewStage(const std::string&, const std::string&)
+{
+    return needsLinux();
+}
+Expected<std::unique_ptr<Maker>> Maker::start()
+{
+    return needsLinux();
+}
+Expected<PrivateFolder> PrivateFolder::create()
+{
+    return needsLinux();
+}
+Expected<std::unique_ptr<Session>> Session::open(const StageSource&, const Look&, Maker&, const SessionOptions&)
+{
+    return needsLinux();
+}
+
+// What no value of theirs ever gets to.
+Maker::~Maker() = default;
+Renderer::~Renderer() = default;
+PrivateFolder::~PrivateFolder() = default;
+Watch::~Watch() = default;
+Compile::~Compile() = default;
+void Session::look(const Look&) {}
+Session::News Session::update(std::chrono::milliseconds)
+{
+    return {};
+}
+std::string formatted(const std::vector<Diagnostic>&)
+{
+    return "";
+}
+std::optional<std::string> readText(const std::string&)
+{
+    return std::nullopt;
+}
+
+}  // namespace relief::samples::live

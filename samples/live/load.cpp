@@ -1,0 +1,58 @@
+#include "live/load.h"
+
+#include <cstdio>
+#include <deque>
+
+#include <dlfcn.h>
+
+#include "live/compiled_programs.h"
+#include "live/watch.h"
+
+namespace relief::samples::live {
+
+Expected<LoadedStage> loadObject(const std::string& object, const StageSource& source)
+{
+    void* const handle = ::dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) {
+        const char* const why = ::dlerror();
+        return fail(source.path + ": the compiled stage cannot be loaded (" + (why != nullptr ? why : "no reason") +
+                    "); what it calls has to be in Relief, in a header or in the file itself");
+    }
+    const auto* const function = static_cast<Stage (*const*)()>(::dlsym(handle, "relief_stage"));
+    const auto* const programs =
+        static_cast<const detail::CompiledPrograms* const* const*>(::dlsym(handle, "relief_programs"));
+    if (function == nullptr || programs == nullptr) return fail(object + ": is no compiled stage");
+    LoadedStage loaded{.stage = (*function)(), .programs = {}};
+    loaded.stage.id = source.id.empty() ? source.stem : source.id;
+    loaded.stage.stem = source.stem;
+    loaded.stage.folder = source.folder;
+    loaded.stage.tutorial = source.tutorial;
+    for (const detail::CompiledPrograms* p = **programs; p != nullptr; p = p->next) loaded.programs.push_back(p->id);
+    return loaded;
+}
+
+Expected<const Stage*> loadStage(const std::string& path)
+{
+    static std::deque<Stage> stages;  // as long as the program runs: so do their programs
+    const Expected<StageSource> source = findSource(path);
+    if (!source) return tl::unexpected(source.error());
+    const Expected<const Toolchain*> toolchain = findToolchain();
+    if (!toolchain) return tl::unexpected(toolchain.error());
+    const std::optional<std::string> text = readText(source->path);
+    if (!text) return fail(path + ": cannot be read; look at its permissions");
+    const Expected<PrivateFolder> folder = PrivateFolder::create();
+    if (!folder) return tl::unexpected(folder.error());
+    Compile compile(**toolchain, {source->path, *text}, {.parts = 1, .owners = {}}, folder->path, 0);
+    const Compiled compiled = compile.wait();
+    if (compiled.object.empty()) {
+        std::fputs(formatted(compiled.errors).c_str(), stderr);
+        const Diagnostic& first = compiled.errors.front();
+        return fail(path + (first.line > 0 ? ":" + std::to_string(first.line) : "") +
+                    ": does not compile; the first error is above");
+    }
+    Expected<LoadedStage> loaded = loadObject(compiled.object, *source);
+    if (!loaded) return tl::unexpected(loaded.error());
+    return &stages.emplace_back(std::move(loaded->stage));
+}
+
+}  // namespace relief::samples::live

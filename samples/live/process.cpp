@@ -1,0 +1,391 @@
+#include "live/process.h"
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+
+#include <execinfo.h>
+#include <link.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include "check/hash.h"
+#include "common/baked_sphere.h"
+#include "common/render.h"
+#include "live/load.h"
+
+namespace relief::samples::live {
+
+// --- messages ---
+
+void put(Message& m, const InputFiles& f)
+{
+    for (const std::string* s : {&f.mesh, &f.albedo, &f.height, &f.normal, &f.detail, &f.detailNormal}) m.put(*s);
+    m.put(f.import);
+}
+void get(Message& m, InputFiles& f)
+{
+    for (std::string* s : {&f.mesh, &f.albedo, &f.height, &f.normal, &f.detail, &f.detailNormal}) m.get(*s);
+    m.get(f.import);
+}
+
+void put(Message& m, const Inputs& i)
+{
+    for (const std::string* s : {&i.mesh, &i.albedo, &i.height, &i.normal, &i.detail, &i.detailNormal}) m.put(*s);
+    m.put(i.cubesTurnedBy).put(i.normalImport).put(i.detailImport).put(i.detailNormalImport);
+}
+void get(Message& m, Inputs& i)
+{
+    for (std::string* s : {&i.mesh, &i.albedo, &i.height, &i.normal, &i.detail, &i.detailNormal}) m.get(*s);
+    m.get(i.cubesTurnedBy).get(i.normalImport).get(i.detailImport).get(i.detailNormalImport);
+}
+
+void put(Message& m, const Look& l)
+{
+    m.put(l.width).put(l.height).put(l.camera.has_value()).put(l.camera.value_or(Camera{})).put(l.settings);
+    put(m, l.files);
+    m.put(l.threads).put(l.tileSize).put(l.showTangents).put(l.tangentScale).put(l.tangentOffset).put(l.hash);
+    m.put(l.strict);
+}
+void get(Message& m, Look& l)
+{
+    bool hasCamera = false;
+    Camera camera;
+    m.get(l.width).get(l.height).get(hasCamera).get(camera).get(l.settings);
+    if (hasCamera) l.camera = camera;
+    get(m, l.files);
+    m.get(l.threads).get(l.tileSize).get(l.showTangents).get(l.tangentScale).get(l.tangentOffset).get(l.hash);
+    m.get(l.strict);
+}
+
+void put(Message& m, const Description& d)
+{
+    const Stage& s = d.stage;
+    for (const std::string* t : {&s.title, &s.section, &s.news, &s.id, &s.stem, &s.folder, &s.tutorial}) m.put(*t);
+    m.put(s.properties.size());
+    for (const Property& p : s.properties) {
+        m.put(p.name).put(p.value).put(p.minimum).put(p.maximum).put(p.components).put(p.meaning);
+    }
+    put(m, s.inputs);
+    m.put(s.camera).put(d.programs);
+}
+void get(Message& m, Description& d)
+{
+    Stage& s = d.stage;
+    for (std::string* t : {&s.title, &s.section, &s.news, &s.id, &s.stem, &s.folder, &s.tutorial}) m.get(*t);
+    std::size_t properties = 0;
+    m.get(properties);
+    for (std::size_t i = 0; i < properties && i < m.bytes.size(); ++i) {
+        Property& p = s.properties.emplace_back();
+        m.get(p.name).get(p.value).get(p.minimum).get(p.maximum).get(p.components).get(p.meaning);
+    }
+    get(m, s.inputs);
+    m.get(s.camera).get(d.programs);
+}
+
+bool send(int socket, const Message& message, std::span<const int> descriptors)
+{
+    iovec bytes{const_cast<char*>(message.bytes.data()), message.bytes.size()};
+    msghdr header = {};
+    header.msg_iov = &bytes;
+    header.msg_iovlen = 1;
+    alignas(cmsghdr) char control[CMSG_SPACE(2 * sizeof(int))] = {};
+    if (!descriptors.empty()) {
+        header.msg_control = control;
+        header.msg_controllen = CMSG_SPACE(descriptors.size_bytes());
+        cmsghdr* const part = CMSG_FIRSTHDR(&header);
+        part->cmsg_level = SOL_SOCKET;
+        part->cmsg_type = SCM_RIGHTS;
+        part->cmsg_len = CMSG_LEN(descriptors.size_bytes());
+        std::memcpy(CMSG_DATA(part), descriptors.data(), descriptors.size_bytes());
+    }
+    ssize_t sent = -1;
+    do {
+        sent = ::sendmsg(socket, &header, MSG_NOSIGNAL);
+    } while (sent < 0 && errno == EINTR);
+    return sent >= 0;
+}
+
+Received receive(int socket, std::string& received, bool wait, int* descriptors)
+{
+    static constexpr std::size_t kLargest = 1 << 18;
+    received.resize(kLargest);
+    iovec bytes{received.data(), received.size()};
+    msghdr header = {};
+    header.msg_iov = &bytes;
+    header.msg_iovlen = 1;
+    alignas(cmsghdr) char control[CMSG_SPACE(2 * sizeof(int))] = {};
+    header.msg_control = control;
+    header.msg_controllen = sizeof control;
+    ssize_t size = -1;
+    do {
+        size = ::recvmsg(socket, &header, MSG_CMSG_CLOEXEC | (wait ? 0 : MSG_DONTWAIT));
+    } while (size < 0 && errno == EINTR);
+    if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return Received::nothing;
+    if (size <= 0) return Received::end;
+    received.resize(static_cast<std::size_t>(size));
+    const cmsghdr* const part = CMSG_FIRSTHDR(&header);
+    if (descriptors != nullptr && part != nullptr) std::memcpy(descriptors, CMSG_DATA(part), 2 * sizeof(int));
+    return Received::message;
+}
+
+namespace {
+
+// --- a crash ---
+
+int crashSocket = -1;
+std::atomic<bool> crashTold{false};
+
+// Tells where this thread is. Also asked for, by the signal of a watchdog, of each thread.
+void tellWhere(int signal, siginfo_t*, void* context)
+{
+    Crash crash;
+    crash.signal = signal;
+    void* counters[47] = {};
+    const int count = ::backtrace(counters, 47);
+#if defined(__x86_64__)
+    const auto* const state = static_cast<const ucontext_t*>(context);
+    crash.counters[crash.count++] = static_cast<std::uintptr_t>(state->uc_mcontext.gregs[REG_RIP]);
+#elif defined(__aarch64__)
+    const auto* const state = static_cast<const ucontext_t*>(context);
+    crash.counters[crash.count++] = static_cast<std::uintptr_t>(state->uc_mcontext.pc);
+#else
+    (void)context;
+#endif
+    for (int i = 0; i < count; ++i) crash.counters[crash.count++] = reinterpret_cast<std::uintptr_t>(counters[i]);
+    const bool asked = signal == SIGUSR1;
+    if (asked || !crashTold.exchange(true)) ::send(crashSocket, &crash, sizeof crash, MSG_NOSIGNAL);
+    if (!asked) ::_exit(1);
+}
+
+void listenToCrashes(int socket)
+{
+    crashSocket = socket;
+    // A stack that is full has no room for a handler.
+    static std::vector<char> otherStack(64 * 1024);
+    const stack_t stack = {otherStack.data(), 0, otherStack.size()};
+    ::sigaltstack(&stack, nullptr);
+    void* first[1];
+    ::backtrace(first, 1);  // loads what it needs, outside of a handler
+    struct sigaction action = {};
+    action.sa_sigaction = tellWhere;
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_RESTART;
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGUSR1}) {
+        ::sigaction(signal, &action, nullptr);
+    }
+}
+
+// Where the object of that name begins.
+std::uintptr_t baseOf(const std::string& object)
+{
+    struct Search
+    {
+        const std::string& name;
+        std::uintptr_t base = 0;
+    } search{object};
+    ::dl_iterate_phdr(
+        [](dl_phdr_info* info, std::size_t, void* data) {
+            auto& s = *static_cast<Search*>(data);
+            if (info->dlpi_name != nullptr && s.name == info->dlpi_name) s.base = info->dlpi_addr;
+            return 0;
+        },
+        &search);
+    return search.base;
+}
+
+// --- a renderer ---
+
+// The settings that the stage knows, and whose values it takes.
+std::vector<std::string> fitting(const Stage& stage, const std::vector<std::string>& settings)
+{
+    Stage bare;
+    bare.id = stage.id;
+    bare.properties = stage.properties;
+    std::vector<std::string> known;
+    for (const std::string& setting : settings) {
+        if (PreparedStage::prepare(bare, {setting})) known.push_back(setting);
+    }
+    return known;
+}
+
+bool sameFiles(const InputFiles& a, const InputFiles& b)
+{
+    return a.mesh == b.mesh && a.albedo == b.albedo && a.height == b.height && a.normal == b.normal &&
+           a.detail == b.detail && a.detailNormal == b.detailNormal && a.import == b.import;
+}
+
+// One version of a stage, drawn again and again.
+struct Drawing
+{
+    int socket, memory;
+    const Stage& stage;
+    std::optional<PreparedStage> prepared;
+    InputFiles files;
+    std::uint32_t* picture = nullptr;
+    std::size_t size = 0;  // mapped, in bytes
+    std::optional<Framebuffer> target;
+    std::unique_ptr<Frame> frame;
+    int threads = 0, tileSize = 0;  // the frame's
+
+    Expected<Drawn> draw(const Look& look);
+    Expected<void> prepare(const Look& look);
+    bool map(std::size_t bytes);
+};
+
+Expected<void> Drawing::prepare(const Look& look)
+{
+    const std::vector<std::string> settings = look.strict ? look.settings : fitting(stage, look.settings);
+    // What is loaded stays: settings change more often than files.
+    const bool keep = prepared && sameFiles(files, look.files);
+    Stage bare;
+    bare.id = stage.id;
+    bare.properties = stage.properties;
+    Expected<PreparedStage> made =
+        PreparedStage::prepare(keep ? bare : stage, settings, keep ? InputFiles{} : look.files);
+    if (!made) return tl::unexpected(made.error());
+    if (keep) {
+        prepared->properties = std::move(made->properties);
+    } else {
+        prepared = std::move(*made);
+        files = look.files;
+    }
+    prepared->usersCamera = look.camera;
+    prepared->tangentLines.reset();
+    if (look.showTangents) prepared->tangentLines = {look.tangentOffset, look.tangentScale};
+    return {};
+}
+
+bool Drawing::map(std::size_t bytes)
+{
+    if (bytes <= size) return true;
+    if (picture != nullptr) ::munmap(picture, size);
+    void* const mapped = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0);
+    picture = mapped == MAP_FAILED ? nullptr : static_cast<std::uint32_t*>(mapped);
+    size = picture != nullptr ? bytes : 0;
+    return picture != nullptr;
+}
+
+Expected<Drawn> Drawing::draw(const Look& look)
+{
+    if (const Expected<void> ready = prepare(look); !ready) return tl::unexpected(ready.error());
+    const std::size_t pixels = static_cast<std::size_t>(look.width) * static_cast<std::size_t>(look.height);
+    if (!frame || target->width() != look.width || target->height() != look.height || threads != look.threads ||
+        tileSize != look.tileSize) {
+        frame.reset();
+        Expected<Framebuffer> made = Framebuffer::create(look.width, look.height);
+        if (!made) return tl::unexpected(made.error());
+        target = std::move(*made);
+        threads = look.threads;
+        tileSize = look.tileSize;
+        frame = std::make_unique<Frame>(*target, FrameOptions{.threads = threads, .tileSize = tileSize});
+    }
+    if (!map(pixels * sizeof(std::uint32_t))) return fail("no memory for a picture of this size; make it smaller");
+    send(socket, Message(Message::Kind::begins));
+
+    Drawn drawn{.width = look.width, .height = look.height, .camera = prepared->camera()};
+    const auto begin = std::chrono::steady_clock::now();
+    prepared->record(*frame, look.width, look.height);
+    drawn.statistics = frame->run();
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
+    drawn.milliseconds = time.count();
+    if (!frame->problem().empty()) return fail(frame->problem());
+    std::memcpy(picture, target->color8().data(), pixels * sizeof(std::uint32_t));
+    if (look.hash) {
+        Expected<Framebuffer> exact = Framebuffer::create(look.width, look.height, Format::rgba32f, Store::keep);
+        if (!exact) return tl::unexpected(exact.error());
+        Frame again(*exact, {.threads = look.threads, .tileSize = look.tileSize});
+        prepared->record(again, look.width, look.height);
+        again.run();
+        drawn.hash = hashOf(*exact);
+    }
+    return drawn;
+}
+
+[[noreturn]] void runRenderer(int socket, int memory, const std::string& object, const StageSource& source)
+{
+    listenToCrashes(socket);
+    Expected<LoadedStage> loaded = loadObject(object, source);
+    if (!loaded) {
+        send(socket, Message(Message::Kind::refused).put(loaded.error().message));
+        ::_exit(0);
+    }
+    Message description(Message::Kind::loaded);
+    put(description, Description{loaded->stage, loaded->programs});
+    description.put(baseOf(object));
+    send(socket, description);
+
+    Drawing drawing{.socket = socket,
+                    .memory = memory,
+                    .stage = loaded->stage,
+                    .prepared = {},
+                    .files = {},
+                    .target = {},
+                    .frame = {}};
+    std::string bytes;
+    while (receive(socket, bytes, true) == Received::message) {
+        Message request(std::move(bytes));
+        Look look;
+        get(request, look);
+        const Expected<Drawn> drawn = drawing.draw(look);
+        send(socket, drawn ? Message(Message::Kind::drawn).put(*drawn)
+                           : Message(Message::Kind::refused).put(drawn.error().message));
+    }
+    ::_exit(0);  // the learner's static destructors are not run
+}
+
+// --- the maker ---
+
+void buildAllLevels(const LoadedInputs& inputs)
+{
+    for (const auto& texture : {inputs.albedo, inputs.height, inputs.normal, inputs.detail, inputs.detailNormal}) {
+        if (texture) texture->level(texture->levelCount() - 1);
+    }
+}
+
+}  // namespace
+
+[[noreturn]] void runMaker(int socket)
+{
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // as the program ends, however it ends
+    ::signal(SIGCHLD, SIG_IGN);          // nobody waits for renderers
+    ::signal(SIGINT, SIG_IGN);           // control-C is the program's, which ends this one
+    std::unique_ptr<LoadedInputs> inputs;
+    std::string bytes;
+    int descriptors[2] = {-1, -1};
+    while (receive(socket, bytes, true, descriptors) == Received::message) {
+        Message request(std::move(bytes));
+        if (request.kind() == Message::Kind::preload) {
+            Inputs wanted;
+            InputFiles files;
+            bool bakes = false;
+            get(request, wanted);
+            get(request, files);
+            request.get(bakes);
+            if (bakes) bakedSphere();
+            if (Expected<std::unique_ptr<LoadedInputs>> read = loadInputs(wanted, files)) {
+                inputs = std::move(*read);
+                buildAllLevels(*inputs);
+            }
+            continue;
+        }
+        std::string object;
+        StageSource source;
+        request.get(object).get(source.id).get(source.stem).get(source.folder).get(source.tutorial).get(source.path);
+        const pid_t child = ::fork();
+        if (child == 0) {
+            ::close(socket);
+            ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+            runRenderer(descriptors[0], descriptors[1], object, source);
+        }
+        for (const int descriptor : descriptors) ::close(descriptor);
+        send(socket, Message(Message::Kind::make).put(child));
+    }
+    ::_exit(0);
+}
+
+}  // namespace relief::samples::live

@@ -1,0 +1,69 @@
+#include "live/toolchain.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <unistd.h>
+
+namespace relief::samples::live {
+
+namespace {
+
+bool isThere(const Toolchain& toolchain)
+{
+    return ::access(toolchain.path.c_str(), X_OK) == 0;
+}
+
+bool hasHeaders(const Toolchain& toolchain)
+{
+    std::error_code ignored;
+    return std::filesystem::exists(toolchain.precompiled, ignored) &&
+           std::filesystem::exists(toolchain.precompiledCaller, ignored);
+}
+
+}  // namespace
+
+Expected<const Toolchain*> findToolchain(const std::string& name)
+{
+    const char* const chosen = std::getenv("RELIEF_LIVE_COMPILER");
+    const std::string wanted = !name.empty() ? name : chosen != nullptr ? chosen : "";
+    std::string lacking;
+    for (const Toolchain& toolchain : toolchains()) {
+        if (!isThere(toolchain) || (!wanted.empty() && wanted != toolchain.name)) continue;
+        if (hasHeaders(toolchain)) return &toolchain;
+        if (lacking.empty()) lacking = toolchain.name;
+    }
+    if (!lacking.empty()) {
+        return fail("compiler " + lacking + ": its precompiled headers are missing; build the target " +
+                    "relief_live_headers_" + lacking + " (./relief does)");
+    }
+    if (!wanted.empty()) {
+        return fail("compiler " + wanted + ": this build has no such one; write g++ or clang++, install it " +
+                    "(Debian: apt-get install g++ or clang) and configure again");
+    }
+    return fail("no compiler for stages: install g++ 12 or later, or clang 14 or later (Debian: apt-get install g++)");
+}
+
+bool namesFile(const std::string& stage)
+{
+    return stage.ends_with(".cpp");
+}
+
+Expected<StageSource> findSource(const std::string& stage)
+{
+    if (namesFile(stage)) {
+        std::error_code ignored;
+        const std::filesystem::path path = std::filesystem::absolute(stage, ignored);
+        if (!std::filesystem::is_regular_file(path, ignored)) {
+            return fail(stage + ": there is no such file; `relief new " + stage + "` writes one");
+        }
+        return StageSource{.stem = path.stem().string(), .path = path.string()};
+    }
+    for (const StageSource& s : stageSources()) {
+        const std::string shortId = s.id[2] == '0' ? s.id.substr(0, 2) + s.id.substr(3) : s.id;
+        if (stage == s.id || stage == shortId || stage == s.stem || stage == s.stem.substr(3)) return s;
+    }
+    return fail("there is no stage '" + stage + "'; `relief list` shows them all, and a file's name ends with .cpp");
+}
+
+}  // namespace relief::samples::live
