@@ -407,8 +407,8 @@ TEST_CASE("command line: none in place of a picture leaves it out")
     checkRefused(folder.path, "render 1.01 --detail-normal x.png", {"--detail-normal", "reads no detail-normal"});
 }
 
-// Without optimisation the next one takes two minutes.
-#if defined(__OPTIMIZE__)
+// With sanitizers or without optimisation the next one takes minutes.
+#if !defined(RELIEF_SHORT_TESTS)
 TEST_CASE("command line: the gallery has every picture and a page that names them")
 {
     const TemporaryFolder folder;

@@ -24,7 +24,7 @@ constexpr int kBlocksOfLargeTriangle = 64;
 // Of one run of blocks.
 struct Counts
 {
-    unsigned blocks = 0, quads = 0, pixels = 0, covered = 0, invalid = 0;
+    unsigned blocks = 0, quadPixels = 0, pixels = 0, covered = 0, invalid = 0;
 };
 
 // What of a draw's state a block asks for: any, or the usual one, of which the compiler knows most.
@@ -113,7 +113,7 @@ bool testEarly(const State& state, const TriangleInTile& triangle, const Covered
         }
     }
     const unsigned quads = wholeQuads(leavesOut::hidden ? live : coverage);
-    counts.quads += static_cast<unsigned>(countBits(quads)) / 4;
+    counts.quadPixels += static_cast<unsigned>(countBits(quads));
     counts.pixels += static_cast<unsigned>(countBits(live));
     block.live = live;
     block.quads = quads;
@@ -141,10 +141,9 @@ void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, C
     ColorWriter<format> writer;
     for (const ShadedBlock& block : blocks) {
         std::int32_t* const words = tile.color<format>(block.index);
-        const Mask live = Mask::fromBits(block.live);
-        counts.invalid +=
-            static_cast<unsigned>(blend == Blend::off ? writer.write(words, block.color, live)
-                                                      : blendInto<format>(words, blend, block.color, live));
+        counts.invalid += static_cast<unsigned>(
+            blend == Blend::off ? writer.write(words, block.color, block.live)
+                                : blendInto<format>(words, blend, block.color, Mask::fromBits(block.live)));
     }
 }
 
@@ -206,7 +205,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     }
     shading.activeLanes = kAllLanes;
     statistics.blocksShaded += counts.blocks;
-    statistics.quadsShaded += counts.quads;
+    statistics.quadsShaded += counts.quadPixels / 4;
     statistics.pixelsShaded += counts.pixels;
     statistics.pixelsHidden += counts.covered - counts.pixels;
     statistics.invalidColors += counts.invalid;

@@ -134,18 +134,17 @@ template <Format format>
 class ColorWriter
 {
 public:
-    // A block's live pixels, linear; `color` stays where it is until the next call. Returns how many of them had a NaN
-    // or an infinity.
-    int write(std::int32_t* words, const Channels& color, Mask live)
+    // A block's live pixels, a bit each, linear; `color` stays where it is until the next call. Returns how many of
+    // them had a NaN or an infinity.
+    int write(std::int32_t* words, const Channels& color, unsigned live)
     {
-        const auto old = StoredColor<format>::load(words);
         const int invalid = encodeUnlessSame(color, live);
-        encoded.store(words, live, old);
+        encoded.store(words, Mask::fromBits(live), StoredColor<format>::load(words));
         return invalid;
     }
 
 private:
-    int encodeUnlessSame(const Channels& channels, Mask live)
+    int encodeUnlessSame(const Channels& channels, unsigned live)
     {
         float4 color = loadChannels(channels);
         if (last != nullptr && isSame(color, loadChannels(*last))) return 0;
@@ -156,7 +155,7 @@ private:
         if (isFinite) [[likely]]
             return 0;
         color = loadChannels(channels);
-        return sanitizeColor(color, live);
+        return sanitizeColor(color, Mask::fromBits(live));
     }
 
     static bool isSame(const float4& a, const float4& b)
