@@ -41,7 +41,8 @@ std::string kept(const std::string& folder, const std::string& name, const Frame
 Expected<void> checkGolden(const Framebuffer& target, const std::string& golden, const std::string& failures)
 {
     if (target.color8().empty()) return fail(golden + ": goldens are 8-bit pictures, the target is not");
-    const std::string remedy = "; look at the new picture, and if it is right, make it the golden: updateGolden() does, or copy the file";
+    const std::string remedy =
+        "; look at the new picture, and if it is right, make it the golden: updateGolden() does, or copy the file";
     const std::string stem = utf8Of(pathOf(golden).stem());
     const std::vector<std::uint8_t> actual = bytesOf(target);
     const auto keepActual = [&] { return kept(failures, stem + ".actual.png", target, actual); };
