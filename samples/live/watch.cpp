@@ -15,7 +15,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kQuiet = 10ms;    // after the last sign of writing
 constexpr auto kBackup = 500ms;  // inotify sees nothing behind links and on network drives
 constexpr auto kPollEvery = 30ms;
 
@@ -30,7 +29,8 @@ std::optional<std::string> readText(const std::string& path)
     return text;
 }
 
-Watch::Watch(std::string path, bool polling) : file(std::move(path))
+Watch::Watch(std::string path, bool polling, std::chrono::milliseconds itsQuiet)
+    : file(std::move(path)), quiet(itsQuiet)
 {
     const std::filesystem::path whole(file);
     name = whole.filename().string();
@@ -83,7 +83,7 @@ bool Watch::statusChanged()
 
 std::chrono::milliseconds Watch::patience() const
 {
-    if (dirty) return kQuiet;
+    if (dirty) return quiet;
     return inotify >= 0 ? kBackup : kPollEvery;
 }
 
@@ -100,7 +100,7 @@ std::optional<Watch::Change> Watch::poll()
         dirty = true;
         last = now;
     }
-    if (!dirty || now - last < kQuiet) return std::nullopt;
+    if (!dirty || now - last < quiet) return std::nullopt;
     dirty = false;
     std::optional<std::string> text = readText(file);
     if (!text || text->empty() || *text == content) return std::nullopt;

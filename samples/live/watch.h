@@ -14,7 +14,9 @@ public:
     using Clock = std::chrono::steady_clock;
 
     // With inotify on the file's folder; `polling`: by looking at its time and size instead, as where there is none.
-    explicit Watch(std::string path, bool polling = false);
+    // A file is read when nothing was written for so long as `quiet` says.
+    explicit Watch(std::string path, bool polling = false,
+                   std::chrono::milliseconds quiet = std::chrono::milliseconds(10));
     ~Watch();
     Watch(const Watch&) = delete;
     Watch& operator=(const Watch&) = delete;
@@ -25,7 +27,7 @@ public:
         Clock::time_point noticed;  // the first sign of it
     };
 
-    // The new content, if it is another one and nothing has been written for some milliseconds. Never waits. A file
+    // The new content, if it is another one and nothing is being written. Never waits. A file
     // that is not there, or empty, is one that is still being written.
     std::optional<Change> poll();
 
@@ -40,6 +42,7 @@ private:
     bool statusChanged();
 
     std::string file, name;
+    std::chrono::milliseconds quiet;
     int inotify = -1;
     std::string status;  // time, size and number of the file
     std::string content;

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 using relief::samples::live::Watch;
 
 // What comes within some time, or "".
-std::string next(Watch& watch, std::chrono::milliseconds patience = 1500ms)
+std::string next(Watch& watch, std::chrono::milliseconds patience = 5000ms)
 {
     const auto until = Watch::Clock::now() + patience;
     while (Watch::Clock::now() < until) {
@@ -69,7 +69,7 @@ TEST_CASE("live: a file that is written in pieces, or saved twice, is read once 
 {
     const TemporaryFolder folder;
     const auto path = folder.write("stage.cpp", "text");
-    Watch watch(path.string());
+    Watch watch(path.string(), false, 300ms);
     {
         std::ofstream file(path, std::ios::binary);
         for (int i = 0; i < 5; ++i) {
@@ -82,5 +82,5 @@ TEST_CASE("live: a file that is written in pieces, or saved twice, is read once 
     CHECK_FALSE(watch.poll().has_value());
     folder.write("stage.cpp", "second");
     CHECK(next(watch) == "second");
-    CHECK(next(watch, 100ms).empty());
+    CHECK(next(watch, 500ms).empty());
 }
