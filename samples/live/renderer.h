@@ -108,7 +108,7 @@ private:
     std::uint32_t* picture = nullptr;
     std::size_t size = 0;  // of the memory, in bytes
     Look last;
-    bool asked = false, begun = false, replayed = false;
+    bool asked = false, begun = false;
     Clock::time_point since;  // of the last word
     double processorSince = 0.0;
     double millisecondsPerPixel = 0.0;
