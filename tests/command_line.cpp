@@ -263,21 +263,6 @@ TEST_CASE("command line: real files of Debian's glmark2-data")
     }
 }
 
-TEST_CASE("command line: the window opens, shows frames and closes under SDL's dummy driver")
-{
-    const TemporaryFolder folder;
-    const Outcome outcome = run(folder.path, "view 1.09 --size 64x36 --frames 3", "SDL_VIDEODRIVER=dummy");
-    const bool noWindow = outcome.err.find("SDL2 was not found") != std::string::npos;
-    if (noWindow) {
-        CHECK(outcome.code == 2);
-        MESSAGE("built without SDL2");
-    } else {
-        CAPTURE(outcome.err);
-        CHECK(outcome.code == 0);
-    }
-    checkRefused(folder.path, "view 9.99", {"9.99"});
-}
-
 TEST_CASE("command line: explain counts, hash does not depend on threads or tiles")
 {
     const TemporaryFolder folder;

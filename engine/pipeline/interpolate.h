@@ -28,7 +28,7 @@ public:
     {
         small = (batch.small >> lane & 1u) != 0;
         if (small) {
-            smallSum = batch.origin[0][lane] + batch.origin[1][lane] + batch.origin[2][lane];
+            smallSum = batch.sum[lane];
             for (int k = 1; k < 3; ++k) {
                 stepX[k] = batch.stepX[k][lane];
                 stepY[k] = batch.stepY[k][lane];

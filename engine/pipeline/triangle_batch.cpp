@@ -43,6 +43,7 @@ void setEdges(TriangleBatch& batch, const Corners& c)
         batch.coverage[k] =
             batch.origin[k] + batch.stepX[k] * batch.x0 + batch.stepY[k] * batch.y0 - select(topLeft, Int(0), Int(1));
     }
+    batch.sum = batch.origin[0] + batch.origin[1] + batch.origin[2];
 }
 
 // An integer below 2^49: exact in double, rounded once to float.

@@ -24,6 +24,7 @@ struct TriangleBatch
     // The edge functions (edge_function.h) modulo 2^32, which is enough for small triangles.
     Int origin[3];           // at the centre of pixel (0, 0)
     Int stepX[3], stepY[3];  // from one pixel to the next
+    Int sum;                 // of all three, at any pixel: twice the area
     Int coverage[3];         // at the centre of pixel (x0, y0), less 1 unless the edge is top-left: inside is >= 0
 
     Float doubledArea, inverseArea;  // 2 * area in 1/65536 px^2, and 1 / that

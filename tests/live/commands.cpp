@@ -107,6 +107,20 @@ TEST_CASE("live: render --watch writes a picture at every save")
     ::pclose(shell);
 }
 
+TEST_CASE("live: the window opens, shows frames and closes under SDL's dummy driver")
+{
+    ::setenv("SDL_VIDEODRIVER", "dummy", 1);
+    const TemporaryFolder folder;
+    const Outcome outcome = run(folder, "view 1.09 --size 64x36 --frames 3");
+    if (outcome.err.find("SDL2 was not found") != std::string::npos) {
+        CHECK(outcome.code == 2);
+        MESSAGE("built without SDL2");
+    } else {
+        CHECK_MESSAGE(outcome.code == 0, outcome.err);
+    }
+    checkRefused(folder, "view 9.99", "9.99");
+}
+
 TEST_CASE("live: bad input is one line")
 {
     const TemporaryFolder folder;
