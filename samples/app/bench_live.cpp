@@ -57,12 +57,11 @@ Expected<Saves> measure(const live::StageSource& source, const LiveBenchOptions&
     if (!folder) return tl::unexpected(folder.error());
     live::StageSource copy = source;
     copy.path = folder->path + "/" + source.stem + ".cpp";
-    const std::optional<std::string> text = live::readText(source.path);
-    if (!text) return fail(source.path + ": cannot be read");
+    const Expected<std::string> text = live::readText(source.path);
+    if (!text) return tl::unexpected(text.error());
     const auto save = [&](const std::string& line) { std::ofstream(copy.path, std::ios::binary) << *text << line; };
     save("");
-    Expected<std::unique_ptr<live::Session>> session =
-        live::Session::open(copy, look, maker, {.compiler = options.compiler});
+    Expected<std::unique_ptr<live::Session>> session = live::Session::open(copy, look, maker, options.compiler);
     if (!session) return tl::unexpected(session.error());
     int version = 1;
     if (const Expected<void> shown = awaitPicture(**session, window, version); !shown) {

@@ -60,9 +60,4 @@ Expected<double> instructionsPerFragment(const std::string& program, const Rende
 // A number as printf writes it.
 std::string text(const char* format, double number);
 
-// What a command prints to stdout and stderr, or nothing where it cannot be run or fails. And a word for such a
-// command.
-std::optional<std::string> outputOf(const std::string& command);
-std::string quoted(const std::string& word);
-
 }  // namespace relief::samples

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/shell.h"
 #include "cost.h"
 #if __has_include(<valgrind/callgrind.h>)
 #include <valgrind/callgrind.h>
@@ -55,25 +55,6 @@ std::vector<double> dumpedCounts(const std::filesystem::path& folder)
 }
 
 }  // namespace
-
-std::string quoted(const std::string& word)
-{
-    std::string result = "'";
-    for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
-}
-
-std::optional<std::string> outputOf(const std::string& command)
-{
-    std::FILE* const pipe = popen(("exec 2>&1; " + command).c_str(), "r");
-    if (pipe == nullptr) return std::nullopt;
-    std::string output;
-    char buffer[4096];
-    for (std::size_t got; (got = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) output.append(buffer, got);
-    const int status = pclose(pipe);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
-    return output;
-}
 
 #if __has_include(<valgrind/callgrind.h>)
 void runCounted(const std::function<void()>& work)

@@ -1,7 +1,7 @@
 // `new`, and `render --watch`: what follows a file without a window.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
 
 #include "commands.h"
 #include "live/new_stage.h"
@@ -21,20 +21,12 @@ namespace {
 
 volatile std::sig_atomic_t stopped = 0;
 
-// Whoever looks at the file never sees half a picture.
-Expected<void> replacePicture(const live::Picture& picture, const std::string& path)
+Expected<void> write(const live::Picture& picture, const std::string& path)
 {
     Expected<Framebuffer> target = Framebuffer::create(picture.drawn.width, picture.drawn.height);
     if (!target) return tl::unexpected(target.error());
     std::copy(picture.pixels.begin(), picture.pixels.end(), target->color8().begin());
-    const std::string beside = path + ".new.png";
-    if (const Expected<void> written = writePng(beside, *target); !written) return written;
-    std::error_code error;
-    std::filesystem::rename(beside, path, error);
-    if (!error) return {};
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    return fail(path + ": cannot be replaced (" + error.message() + "); look at its permissions");
+    return writePng(path, *target);
 }
 
 }  // namespace
@@ -48,7 +40,7 @@ Expected<void> renderAtEverySave(const RenderOptions& options, const std::string
     const Expected<std::unique_ptr<live::Maker>> maker = live::Maker::start();
     if (!maker) return tl::unexpected(maker.error());
     const Expected<std::unique_ptr<live::Session>> session =
-        live::Session::open(*source, *look, **maker, {.compiler = options.compiler});
+        live::Session::open(*source, *look, **maker, options.compiler);
     if (!session) return tl::unexpected(session.error());
 
     struct sigaction action = {};
@@ -65,7 +57,7 @@ Expected<void> renderAtEverySave(const RenderOptions& options, const std::string
             std::fputs(problem->text().c_str(), stderr);
         }
         if (!news.picture) continue;
-        if (const Expected<void> written = replacePicture((*session)->picture(), path); !written) return written;
+        if (const Expected<void> written = write((*session)->picture(), path); !written) return written;
         std::printf("%s (%.0f ms)\n", path.c_str(), (*session)->times().total());
         std::fflush(stdout);
     }

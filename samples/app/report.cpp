@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include "common/shell.h"
 #include "cost.h"
 #include "file.h"
 #include "report_options.h"

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line.h"
+#include "common/shell.h"
 #include "cost.h"
 #include "report.h"
 

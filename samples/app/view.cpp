@@ -63,7 +63,7 @@ struct Viewer
 
     Expected<std::unique_ptr<live::Session>> sessionOf(const live::StageSource& source)
     {
-        return live::Session::open(source, look, maker, {.compiler = options.compiler});
+        return live::Session::open(source, look, maker, options.compiler);
     }
     Expected<void> open(const live::StageSource& source);
     void step(int direction);

@@ -12,6 +12,8 @@ struct InputFiles
 {
     std::string mesh, albedo, height, normal, detail, detailNormal;
     std::vector<std::string> import;  // see import_options.h
+
+    bool operator==(const InputFiles&) const = default;
 };
 
 }  // namespace relief::samples

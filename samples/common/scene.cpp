@@ -1,8 +1,6 @@
 #include "common/scene.h"
 
 #include <algorithm>
-#include <functional>
-#include <iterator>
 #include <sstream>
 
 #include "common/assets.h"
@@ -41,17 +39,14 @@ Expected<std::string> choose(const std::string& option, const std::string& input
     return assetPath(input);
 }
 
-Expected<void> load(const std::string& option, const std::string& input, const std::string& file,
-                    const ImportSettings& settings, std::shared_ptr<const Texture>& texture)
+// A picture to be loaded, and where its texture goes.
+struct Load
 {
-    const Expected<std::string> path = choose(option, input, file);
-    if (!path) return tl::unexpected(path.error());
-    if (path->empty()) return {};
-    Expected<std::shared_ptr<const Texture>> loaded = importTexture(*path, settings);
-    if (!loaded) return tl::unexpected(loaded.error());
-    texture = std::move(*loaded);
-    return {};
-}
+    std::string path;
+    const ImportSettings& settings;
+    std::shared_ptr<const Texture>& texture;
+    Expected<void> result = {};
+};
 
 // A rotation by 90 degrees about X with exact zeros, so that the quad's normal is (0, 1, 0) to the last bit.
 constexpr glm::mat4 kLying = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}};
@@ -98,20 +93,32 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     const Expected<ImportSettings> detailNormal = withOptions(inputs.detailNormalImport, files.import);
     if (!normal) return tl::unexpected(normal.error());
     if (!detailNormal) return tl::unexpected(detailNormal.error());
-    // Most of the way to the first picture is decoding files: a thread for each.
-    const std::function<Expected<void>()> loads[] = {
-        [&] { return load("albedo", inputs.albedo, files.albedo, albedo, loaded->albedo); },
-        [&] { return load("height", inputs.height, files.height, heights, loaded->height); },
-        [&] { return load("normal", inputs.normal, files.normal, *normal, loaded->normal); },
-        [&] { return load("detail", inputs.detail, files.detail, inputs.detailImport, loaded->detail); },
-        [&] {
-            return load("detail-normal", inputs.detailNormal, files.detailNormal, *detailNormal, loaded->detailNormal);
-        },
+    std::vector<Load> loads;
+    const auto wanted = [&](const char* option, const std::string& input, const std::string& file,
+                            const ImportSettings& settings, std::shared_ptr<const Texture>& texture) -> Expected<void> {
+        return choose(option, input, file).map([&](const std::string& path) {
+            if (!path.empty()) loads.push_back({path, settings, texture});
+        });
     };
-    Expected<void> results[std::size(loads)];
-    Workers().run(static_cast<int>(std::size(loads)), [&](int i, int) { results[i] = loads[i](); });
-    for (const Expected<void>& result : results) {
+    for (const Expected<void>& result : {
+             wanted("albedo", inputs.albedo, files.albedo, albedo, loaded->albedo),
+             wanted("height", inputs.height, files.height, heights, loaded->height),
+             wanted("normal", inputs.normal, files.normal, *normal, loaded->normal),
+             wanted("detail", inputs.detail, files.detail, inputs.detailImport, loaded->detail),
+             wanted("detail-normal", inputs.detailNormal, files.detailNormal, *detailNormal, loaded->detailNormal),
+         }) {
         if (!result) return tl::unexpected(result.error());
+    }
+    // A thread for each: decoding is a good part of the time to the first picture.
+    const auto count = static_cast<int>(loads.size());
+    Workers(std::max(count, 1)).run(count, [&](int i, int) {
+        Load& load = loads[static_cast<std::size_t>(i)];
+        load.result = importTexture(load.path, load.settings).map([&load](std::shared_ptr<const Texture> texture) {
+            load.texture = std::move(texture);
+        });
+    });
+    for (const Load& load : loads) {
+        if (!load.result) return tl::unexpected(load.result.error());
     }
     return loaded;
 }

@@ -67,9 +67,9 @@ std::string formatted(const std::vector<Diagnostic>&)
 {
     return "";
 }
-std::optional<std::string> readText(const std::string&)
+Expected<std::string> readText(const std::string&)
 {
-    return std::nullopt;
+    return needsLinux();
 }
 
 }  // namespace relief::samples::live

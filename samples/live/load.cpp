@@ -38,8 +38,8 @@ Expected<const Stage*> loadStage(const std::string& path)
     if (!source) return tl::unexpected(source.error());
     const Expected<const Toolchain*> toolchain = findToolchain();
     if (!toolchain) return tl::unexpected(toolchain.error());
-    const std::optional<std::string> text = readText(source->path);
-    if (!text) return fail(path + ": cannot be read; look at its permissions");
+    const Expected<std::string> text = readText(source->path);
+    if (!text) return tl::unexpected(text.error());
     const Expected<PrivateFolder> folder = PrivateFolder::create();
     if (!folder) return tl::unexpected(folder.error());
     Compile compile(**toolchain, {source->path, *text}, {.parts = 1, .owners = {}}, folder->path, 0);

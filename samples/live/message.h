@@ -17,8 +17,10 @@ public:
         // to the process that makes others
         make,     // of an object; with a socket and a picture's memory
         preload,  // what stages read
-                  // to one that draws
+
+        // to one that draws
         draw,
+
         // from it
         loaded,   // Description
         begins,   // inputs are there, drawing begins
@@ -27,10 +29,10 @@ public:
         crashed   // Crash
     };
 
-    explicit Message(Kind kind) { put(kind); }
-    explicit Message(std::string received) : bytes(std::move(received)) { get(received_kind); }
+    explicit Message(Kind kind) : mKind(kind) { put(kind); }
+    explicit Message(std::string received) : bytes(std::move(received)) { get(mKind); }
 
-    Kind kind() const { return received_kind; }
+    Kind kind() const { return mKind; }
 
     template <class T>
     Message& put(const T& value)
@@ -83,7 +85,7 @@ public:
 
 private:
     std::size_t at = 0;
-    Kind received_kind = Kind::refused;
+    Kind mKind = Kind::refused;
 };
 
 }  // namespace relief::samples::live

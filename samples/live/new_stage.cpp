@@ -43,8 +43,8 @@ Expected<void> writeNewStage(const std::string& path, const std::string& from)
         if (!found) return fail("new " + path + " --from " + from + ": " + found.error().message);
         source = found->path;
     }
-    std::optional<std::string> text = readText(source);
-    if (!text) return fail(source + ": cannot be read; restore it (git checkout samples)");
+    Expected<std::string> text = readText(source);
+    if (!text) return tl::unexpected(text.error());
     const std::string function = stageFunction(*text);
     if (function.empty()) return fail(source + ": has no function `Stage NAME()` at the beginning of a line");
     replaceAll(*text, " " + function + "()", " " + asFunction(file.stem().string()) + "()");

@@ -213,12 +213,6 @@ std::vector<std::string> fitting(const Stage& stage, const std::vector<std::stri
     return known;
 }
 
-bool sameFiles(const InputFiles& a, const InputFiles& b)
-{
-    return a.mesh == b.mesh && a.albedo == b.albedo && a.height == b.height && a.normal == b.normal &&
-           a.detail == b.detail && a.detailNormal == b.detailNormal && a.import == b.import;
-}
-
 // One version of a stage, drawn again and again.
 struct Drawing
 {
@@ -241,7 +235,7 @@ Expected<void> Drawing::prepare(const Look& look)
 {
     const std::vector<std::string> settings = look.strict ? look.settings : fitting(stage, look.settings);
     // What is loaded stays: settings change more often than files.
-    const bool keep = prepared && sameFiles(files, look.files);
+    const bool keep = prepared && files == look.files;
     Stage bare;
     bare.id = stage.id;
     bare.properties = stage.properties;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <sstream>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -15,6 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/shell.h"
 #include "live/process.h"
 
 namespace relief::samples::live {
@@ -41,39 +43,26 @@ const char* inWords(int signal)
     }
 }
 
-std::string quoted(const std::string& word)
-{
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-    return text + "'";
-}
-
 // The first line of `source` among those that the addresses of an object stand for, callers after those they called.
 int lineOf(const std::string& object, const std::string& source, const std::vector<std::uintptr_t>& addresses)
 {
-    std::string command;
-    for (const char* const tool : {"addr2line", "llvm-addr2line", "llvm-addr2line-14"}) {
-        if (command.empty() && std::system(("command -v " + std::string(tool) + " >/dev/null 2>&1").c_str()) == 0) {
-            command = tool;
-        }
-    }
-    if (command.empty() || addresses.empty()) return 0;
-    command += " -i -e " + quoted(object);
+    if (addresses.empty()) return 0;
+    std::string arguments = " -i -e " + quoted(object);
     for (const std::uintptr_t address : addresses) {
         char buffer[32];
         std::snprintf(buffer, sizeof buffer, " 0x%llx", static_cast<unsigned long long>(address));
-        command += buffer;
+        arguments += buffer;
     }
-    FILE* const pipe = ::popen((command + " 2>/dev/null").c_str(), "r");
-    if (pipe == nullptr) return 0;
-    char row[4096];
-    int line = 0;
-    while (std::fgets(row, sizeof row, pipe) != nullptr) {
-        const std::string text = row;
-        if (line == 0 && text.starts_with(source + ":")) line = std::atoi(text.c_str() + source.size() + 1);
+    std::optional<std::string> output;
+    for (const char* const tool : {"addr2line", "llvm-addr2line", "llvm-addr2line-14"}) {
+        if (!output) output = outputOf(tool + arguments);
     }
-    ::pclose(pipe);
-    return line;
+    std::istringstream rows(output.value_or(""));
+    for (std::string row; std::getline(rows, row);) {
+        const int line = row.starts_with(source + ":") ? std::atoi(row.c_str() + source.size() + 1) : 0;
+        if (line > 0) return line;
+    }
+    return 0;
 }
 
 }  // namespace

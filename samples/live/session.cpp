@@ -31,28 +31,27 @@ bool namesTwice(const std::vector<std::uint64_t>& programs)
 }  // namespace
 
 Expected<std::unique_ptr<Session>> Session::open(const StageSource& source, const Look& look, Maker& maker,
-                                                 const SessionOptions& options)
+                                                 const std::string& compiler)
 {
-    const Expected<const Toolchain*> toolchain = findToolchain(options.compiler);
+    const Expected<const Toolchain*> toolchain = findToolchain(compiler);
     if (!toolchain) return tl::unexpected(toolchain.error());
-    const std::optional<std::string> text = readText(source.path);
-    if (!text) return fail(source.path + ": cannot be read; look at its name and permissions");
+    const Expected<std::string> text = readText(source.path);
+    if (!text) return tl::unexpected(text.error());
     Expected<PrivateFolder> folder = PrivateFolder::create();
     if (!folder) return tl::unexpected(folder.error());
-    std::unique_ptr<Session> session(
-        new Session(source, look, maker, **toolchain, std::move(*folder), options.polling));
+    std::unique_ptr<Session> session(new Session(source, look, maker, **toolchain, std::move(*folder)));
     session->save(*text, Watch::Clock::now());
     return session;
 }
 
 Session::Session(const StageSource& source, const Look& look, Maker& itsMaker, const Toolchain& itsToolchain,
-                 PrivateFolder itsFolder, bool polling)
+                 PrivateFolder itsFolder)
     : itsSource(source),
       wanted(look),
       maker(itsMaker),
       toolchain(itsToolchain),
       folder(std::move(itsFolder)),
-      watch(source.path, polling)
+      watch(source.path)
 {
 }
 

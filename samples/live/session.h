@@ -45,12 +45,6 @@ struct Problem
     std::string text() const { return formatted(diagnostics); }
 };
 
-struct SessionOptions
-{
-    std::string compiler;  // "g++" or "clang++"; empty: the fastest
-    bool polling = false;  // see Watch
-};
-
 class Session
 {
 public:
@@ -63,8 +57,9 @@ public:
 
     // Begins to compile, and returns at once. Forks: before this process has threads or a window. An error where the
     // file, a compiler or a process is missing. The maker can be shared by several sessions, and outlives them.
+    // `compiler`: "g++" or "clang++"; empty: the fastest.
     static Expected<std::unique_ptr<Session>> open(const StageSource& source, const Look& look, Maker& maker,
-                                                   const SessionOptions& options = {});
+                                                   const std::string& compiler = "");
 
     // Draws with other settings, as soon as what is being drawn is done; of several only the last.
     void look(const Look& look);
@@ -88,8 +83,8 @@ public:
     const StageSource& source() const { return itsSource; }
 
 private:
-    Session(const StageSource& source, const Look& look, Maker& maker, const Toolchain& toolchain, PrivateFolder folder,
-            bool polling);
+    Session(const StageSource& source, const Look& look, Maker& maker, const Toolchain& toolchain,
+            PrivateFolder folder);
     void save(std::string text, Watch::Clock::time_point noticed);
     void begin();
     void compiled(Compiled result, News& news);

@@ -1,9 +1,10 @@
 #include "live/toolchain.h"
 
-#include <cstdlib>
 #include <filesystem>
 
 #include <unistd.h>
+
+#include "common/stage_names.h"
 
 namespace relief::samples::live {
 
@@ -25,11 +26,9 @@ bool hasHeaders(const Toolchain& toolchain)
 
 Expected<const Toolchain*> findToolchain(const std::string& name)
 {
-    const char* const chosen = std::getenv("RELIEF_LIVE_COMPILER");
-    const std::string wanted = !name.empty() ? name : chosen != nullptr ? chosen : "";
     std::string lacking;
     for (const Toolchain& toolchain : toolchains()) {
-        if (!isThere(toolchain) || (!wanted.empty() && wanted != toolchain.name)) continue;
+        if (!isThere(toolchain) || (!name.empty() && name != toolchain.name)) continue;
         if (hasHeaders(toolchain)) return &toolchain;
         if (lacking.empty()) lacking = toolchain.name;
     }
@@ -37,8 +36,8 @@ Expected<const Toolchain*> findToolchain(const std::string& name)
         return fail("compiler " + lacking + ": its precompiled headers are missing; build the target " +
                     "relief_live_headers_" + lacking + " (./relief does)");
     }
-    if (!wanted.empty()) {
-        return fail("compiler " + wanted + ": this build has no such one; write g++ or clang++, install it " +
+    if (!name.empty()) {
+        return fail("compiler " + name + ": this build has no such one; write g++ or clang++, install it " +
                     "(Debian: apt-get install g++ or clang) and configure again");
     }
     return fail("no compiler for stages: install g++ 12 or later, or clang 14 or later (Debian: apt-get install g++)");
@@ -59,11 +58,7 @@ Expected<StageSource> findSource(const std::string& stage)
         }
         return StageSource{.stem = path.stem().string(), .path = path.string()};
     }
-    for (const StageSource& s : stageSources()) {
-        const std::string shortId = s.id[2] == '0' ? s.id.substr(0, 2) + s.id.substr(3) : s.id;
-        if (stage == s.id || stage == shortId || stage == s.stem || stage == s.stem.substr(3)) return s;
-    }
-    return fail("there is no stage '" + stage + "'; `relief list` shows them all, and a file's name ends with .cpp");
+    return findByName(stageSources(), stage).map([](const StageSource* found) { return *found; });
 }
 
 }  // namespace relief::samples::live

@@ -26,8 +26,8 @@ struct Toolchain
 // All that CMake found, the fastest first.
 const std::vector<Toolchain>& toolchains();
 
-// The one of that name, "g++" or "clang++"; without a name, RELIEF_LIVE_COMPILER of the environment, or the fastest
-// that is there. An error says what to install or to build.
+// The one of that name, "g++" or "clang++"; without a name, the fastest that is there. An error says what to install or
+// to build.
 Expected<const Toolchain*> findToolchain(const std::string& name = "");
 
 struct StageSource

@@ -2,12 +2,12 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <sys/inotify.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "file.h"
 
 namespace relief::samples::live {
 
@@ -20,13 +20,10 @@ constexpr auto kPollEvery = 30ms;
 
 }  // namespace
 
-std::optional<std::string> readText(const std::string& path)
+Expected<std::string> readText(const std::string& path)
 {
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) return std::nullopt;
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (stream.bad()) return std::nullopt;
-    return text;
+    return readFile(path).map(
+        [](const std::vector<std::uint8_t>& bytes) { return std::string(bytes.begin(), bytes.end()); });
 }
 
 Watch::Watch(std::string path, bool polling, std::chrono::milliseconds itsQuiet)
@@ -102,8 +99,8 @@ std::optional<Watch::Change> Watch::poll()
     }
     if (!dirty || now - last < quiet) return std::nullopt;
     dirty = false;
-    std::optional<std::string> text = readText(file);
-    if (!text || text->empty() || *text == content) return std::nullopt;
+    Expected<std::string> text = readText(file);
+    if (!text || *text == content) return std::nullopt;
     content = *text;
     return Change{std::move(*text), first};
 }

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "error.h"
+
 namespace relief::samples::live {
 
 class Watch
@@ -50,7 +52,7 @@ private:
     Clock::time_point first, last, looked;
 };
 
-// The whole file, or nothing.
-std::optional<std::string> readText(const std::string& path);
+// The whole file. An error as of readFile(): an empty one is one, too.
+Expected<std::string> readText(const std::string& path);
 
 }  // namespace relief::samples::live
