@@ -16,6 +16,7 @@
 
 #include "check/hash.h"
 #include "common/baked_sphere.h"
+#include "common/inside.h"
 #include "common/render.h"
 #include "live/load.h"
 
@@ -50,7 +51,7 @@ void put(Message& m, const Look& l)
     m.put(l.width).put(l.height).put(l.camera.has_value()).put(l.camera.value_or(Camera{})).put(l.settings);
     put(m, l.files);
     m.put(l.threads).put(l.tileSize).put(l.showTangents).put(l.tangentScale).put(l.tangentOffset).put(l.hash);
-    m.put(l.strict);
+    m.put(l.strict).put(l.show);
 }
 void get(Message& m, Look& l)
 {
@@ -60,7 +61,20 @@ void get(Message& m, Look& l)
     if (hasCamera) l.camera = camera;
     get(m, l.files);
     m.get(l.threads).get(l.tileSize).get(l.showTangents).get(l.tangentScale).get(l.tangentOffset).get(l.hash);
-    m.get(l.strict);
+    m.get(l.strict).get(l.show);
+}
+
+void put(Message& m, const std::vector<ViewName>& views)
+{
+    m.put(views.size());
+    for (const ViewName& view : views) m.put(view.name).put(view.meaning);
+}
+void get(Message& m, std::vector<ViewName>& views)
+{
+    std::size_t count = 0;
+    m.get(count);
+    views.resize(count <= m.bytes.size() ? count : 0);
+    for (ViewName& view : views) m.get(view.name).get(view.meaning);
 }
 
 void put(Message& m, const Description& d)
@@ -227,6 +241,7 @@ struct Drawing
     int threads = 0, tileSize = 0;  // the frame's
 
     Expected<Drawn> draw(const Look& look);
+    std::vector<ViewName> views() const;  // of the last frame
     Expected<void> prepare(const Look& look);
     bool map(std::size_t bytes);
 };
@@ -284,7 +299,10 @@ Expected<Drawn> Drawing::draw(const Look& look)
     Drawn drawn{.width = look.width, .height = look.height, .camera = prepared->camera()};
     const auto begin = std::chrono::steady_clock::now();
     prepared->record(*frame, look.width, look.height);
-    drawn.statistics = frame->run();
+    const bool isThere = look.strict || look.show.empty() || findView(*frame, look.show);
+    const Expected<Statistics> statistics = runInside(*frame, *target, isThere ? look.show : "");
+    if (!statistics) return tl::unexpected(statistics.error());
+    drawn.statistics = *statistics;
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
     drawn.milliseconds = time.count();
     if (!frame->problem().empty()) return fail(frame->problem());
@@ -298,6 +316,13 @@ Expected<Drawn> Drawing::draw(const Look& look)
         drawn.hash = hashOf(*exact);
     }
     return drawn;
+}
+
+std::vector<ViewName> Drawing::views() const
+{
+    std::vector<ViewName> names;
+    for (const View& view : viewsOf(*frame)) names.push_back({view.name, view.meaning});
+    return names;
 }
 
 [[noreturn]] void runRenderer(int socket, int memory, const std::string& object, const StageSource& source)
@@ -326,8 +351,13 @@ Expected<Drawn> Drawing::draw(const Look& look)
         Look look;
         get(request, look);
         const Expected<Drawn> drawn = drawing.draw(look);
-        send(socket, drawn ? Message(Message::Kind::drawn).put(*drawn)
-                           : Message(Message::Kind::refused).put(drawn.error().message));
+        Message answer(drawn ? Message::Kind::drawn : Message::Kind::refused);
+        if (drawn) {
+            put(answer.put(*drawn), drawing.views());
+        } else {
+            answer.put(drawn.error().message);
+        }
+        send(socket, answer);
     }
     ::_exit(0);  // the learner's static destructors are not run
 }

@@ -185,6 +185,10 @@ void Session::hear(std::unique_ptr<Renderer>& renderer, News& news)
             newTimes.load = milliseconds(Watch::Clock::now() - stamp) - newTimes.draw;
             lastTimes = newTimes;
         }
+        if (description && description->views != heard.views) {
+            description->views = std::move(heard.views);
+            news.stage = true;
+        }
         if (waiting) {
             waiting = false;
             current->draw(wanted);

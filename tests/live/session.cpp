@@ -1,4 +1,5 @@
 // A stage whose picture follows its file: what a person does to the file, and what must come of it.
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -151,6 +152,28 @@ TEST_CASE("live: a setting that the stage does not have is one line")
     look.settings = {"tiling=2"};
     edited.session->look(look);
     CHECK(edited.until([&] { return edited.session->picture().version > 0; }));
+}
+
+TEST_CASE("live: a view of the frame is shown, views are listed, and one that is gone gives way to the picture")
+{
+    Look look{.width = 64, .height = 36, .camera = {}, .settings = {}, .files = {}, .threads = 1};
+    Edited edited(look);
+    REQUIRE(edited.awaitVersion(1));
+    const std::uint32_t picture = edited.middle();
+    const std::vector<ViewName>& views = edited.session->stage()->views;
+    CHECK(std::find(views.begin(), views.end(), ViewName{"depth", "0 near, 1 far"}) != views.end());
+    look.show = "uv";
+    edited.session->look(look);
+    REQUIRE(edited.until([&] { return edited.session->idle() && edited.middle() != picture; }));
+    CHECK((edited.middle() >> 16 & 0xffu) == 0);  // no blue
+    look.show = "nothing";
+    edited.session->look(look);
+    REQUIRE(edited.awaitProblem());
+    CHECK(edited.session->problem()->isRefusal);
+    CHECK(edited.session->problem()->diagnostics.front().message.find("no view 'nothing'") != std::string::npos);
+    edited.save(edited.withLine("return float4(1, 0, 0, 1);"));
+    REQUIRE(edited.awaitVersion(2));
+    CHECK(edited.middle() == 0xff0000ffu);
 }
 
 TEST_CASE("live: a shader that crashes or never ends is named by its line, and the version before comes back")
