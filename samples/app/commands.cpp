@@ -26,7 +26,7 @@ nlohmann::json describe(const Property& p)
 nlohmann::json describe(const Stage& stage)
 {
     nlohmann::json properties = nlohmann::json::array();
-    for (const Property& p : stage.properties) properties.push_back(describe(p));
+    for (const Property& p : stage.uniforms.properties) properties.push_back(describe(p));
     return {{"id", stage.id},           {"stem", stage.stem},      {"title", stage.title}, {"tutorial", stage.tutorial},
             {"section", stage.section}, {"properties", properties}};
 }
@@ -57,7 +57,7 @@ Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int thr
     Frame frame(*target, {.threads = threads});
     stage.record(frame, size.width, size.height);
     const Statistics statistics = frame.run();
-    if (!frame.problem().empty()) return fail(frame.problem());
+    if (const std::string problem = stage.problem(frame); !problem.empty()) return fail(problem);
     const Expected<void> written = writePng(path, *target);
     if (!written) return tl::unexpected(written.error());
     return statistics;
@@ -98,7 +98,7 @@ Expected<void> signature(const RenderOptions& options, const std::string& binorm
     const bool perFragment = binormal.empty() ? kBinormalPerFragment : binormal == "fragment";
     const Expected<const Stage*> stage = stageOf(options.stage);
     if (!stage) return tl::unexpected(stage.error());
-    const std::vector<Property>& all = (*stage)->properties;
+    const std::vector<Property>& all = (*stage)->uniforms.properties;
     const bool hasVariants =
         std::any_of(all.begin(), all.end(), [](const Property& p) { return p.name == "binormalPerFragment"; });
     if (!binormal.empty() && !hasVariants) {
