@@ -27,7 +27,7 @@ nlohmann::json describe(const Property& p)
 nlohmann::json describe(const Stage& stage)
 {
     nlohmann::json properties = nlohmann::json::array();
-    for (const Property& p : stage.properties) properties.push_back(describe(p));
+    for (const Property& p : stage.uniforms.properties) properties.push_back(describe(p));
     return {{"id", stage.id},           {"stem", stage.stem},      {"title", stage.title}, {"tutorial", stage.tutorial},
             {"section", stage.section}, {"properties", properties}};
 }
@@ -58,7 +58,7 @@ Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int thr
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = threads});
     stage.record(frame, size.width, size.height);
-    if (!frame.problem().empty()) return fail(frame.problem());
+    if (const std::string problem = stage.problem(frame); !problem.empty()) return fail(problem);
     const Expected<Statistics> statistics = runInside(frame, *target, show);
     if (!statistics) return fail("--show " + show + ": " + statistics.error().message);
     const Expected<void> written = writePng(path, *target);
@@ -75,7 +75,7 @@ Expected<void> listViews(const PreparedStage& stage, Size size)
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = 1});
     stage.record(frame, size.width, size.height);
-    if (!frame.problem().empty()) return fail(frame.problem());
+    if (const std::string problem = stage.problem(frame); !problem.empty()) return fail(problem);
     for (const View& view : viewsOf(frame)) std::printf("%-10s %s\n", view.name.c_str(), view.meaning.c_str());
     return {};
 }
@@ -118,7 +118,7 @@ Expected<void> signature(const RenderOptions& options, const std::string& binorm
     const bool perFragment = binormal.empty() ? kBinormalPerFragment : binormal == "fragment";
     const Expected<const Stage*> stage = stageOf(options.stage);
     if (!stage) return tl::unexpected(stage.error());
-    const std::vector<Property>& all = (*stage)->properties;
+    const std::vector<Property>& all = (*stage)->uniforms.properties;
     const bool hasVariants =
         std::any_of(all.begin(), all.end(), [](const Property& p) { return p.name == "binormalPerFragment"; });
     if (!binormal.empty() && !hasVariants) {

@@ -125,7 +125,7 @@ void Viewer::ask()
 {
     if (current->stage() == nullptr) return;
     look.settings = options.settings;
-    for (const Property& p : current->stage()->stage.properties) {
+    for (const Property& p : current->stage()->stage.uniforms.properties) {
         if (changed.count(p.name) != 0) look.settings.push_back(setting(p, changed.at(p.name)));
     }
     current->look(look);
@@ -138,8 +138,8 @@ void Viewer::ask()
 
 void Viewer::change(float direction)
 {
-    if (current->stage() == nullptr || current->stage()->stage.properties.empty()) return;
-    const std::vector<Property>& all = current->stage()->stage.properties;
+    if (current->stage() == nullptr || current->stage()->stage.uniforms.properties.empty()) return;
+    const std::vector<Property>& all = current->stage()->stage.uniforms.properties;
     const Property& p = all[std::min(property, all.size() - 1)];
     glm::vec4& value = changed.try_emplace(p.name, p.value).first->second;
     value.x = std::clamp(value.x + (p.maximum - p.minimum) / 200.0f * direction, p.minimum, p.maximum);
@@ -161,7 +161,7 @@ void Viewer::turn(float yaw, float pitch, float zoom)
 void Viewer::key(SDL_Keycode pressed, bool fast)
 {
     const std::size_t count =
-        current->stage() != nullptr ? std::max<std::size_t>(1, current->stage()->stage.properties.size()) : 1;
+        current->stage() != nullptr ? std::max<std::size_t>(1, current->stage()->stage.uniforms.properties.size()) : 1;
     switch (pressed) {
         case SDLK_q:
         case SDLK_ESCAPE:
@@ -240,8 +240,8 @@ std::string Viewer::title() const
     const Stage& stage = current->stage()->stage;
     char text[256];
     std::string chosen = "no properties";
-    if (!stage.properties.empty()) {
-        const Property& p = stage.properties[std::min(property, stage.properties.size() - 1)];
+    if (!stage.uniforms.properties.empty()) {
+        const Property& p = stage.uniforms.properties[std::min(property, stage.uniforms.properties.size() - 1)];
         const glm::vec4 value = changed.count(p.name) != 0 ? changed.at(p.name) : p.value;
         std::snprintf(text, sizeof text, "%s = %g", p.name.c_str(), static_cast<double>(value.x));
         chosen = text;

@@ -37,13 +37,13 @@ void get(Message& m, InputFiles& f)
 
 void put(Message& m, const Inputs& i)
 {
-    for (const std::string* s : {&i.mesh, &i.albedo, &i.height, &i.normal, &i.detail, &i.detailNormal}) m.put(*s);
-    m.put(i.cubesTurnedBy).put(i.normalImport).put(i.detailImport).put(i.detailNormalImport);
+    m.put(i.mesh).put(i.cubesTurnedBy);
+    for (const auto& [file, settings] : i.textures) m.put(file).put(settings);
 }
 void get(Message& m, Inputs& i)
 {
-    for (std::string* s : {&i.mesh, &i.albedo, &i.height, &i.normal, &i.detail, &i.detailNormal}) m.get(*s);
-    m.get(i.cubesTurnedBy).get(i.normalImport).get(i.detailImport).get(i.detailNormalImport);
+    m.get(i.mesh).get(i.cubesTurnedBy);
+    for (auto& [file, settings] : i.textures) m.get(file).get(settings);
 }
 
 void put(Message& m, const Look& l)
@@ -81,12 +81,13 @@ void put(Message& m, const Description& d)
 {
     const Stage& s = d.stage;
     for (const std::string* t : {&s.title, &s.section, &s.news, &s.id, &s.stem, &s.folder, &s.tutorial}) m.put(*t);
-    m.put(s.properties.size());
-    for (const Property& p : s.properties) {
-        m.put(p.name).put(p.value).put(p.minimum).put(p.maximum).put(p.components).put(p.meaning);
+    m.put(s.uniforms.properties.size());
+    for (const Property& p : s.uniforms.properties) {
+        m.put(p.name).put(p.kind).put(p.components).put(p.value).put(p.minimum).put(p.maximum);
+        m.put(p.meaning).put(p.choices);
     }
-    put(m, s.inputs);
-    m.put(s.camera).put(d.programs);
+    put(m, s.uniforms.inputs);
+    m.put(s.mesh).put(s.cubesTurnedBy).put(s.camera).put(d.programs);
 }
 void get(Message& m, Description& d)
 {
@@ -95,11 +96,12 @@ void get(Message& m, Description& d)
     std::size_t properties = 0;
     m.get(properties);
     for (std::size_t i = 0; i < properties && i < m.bytes.size(); ++i) {
-        Property& p = s.properties.emplace_back();
-        m.get(p.name).get(p.value).get(p.minimum).get(p.maximum).get(p.components).get(p.meaning);
+        Property& p = s.uniforms.properties.emplace_back();
+        m.get(p.name).get(p.kind).get(p.components).get(p.value).get(p.minimum).get(p.maximum);
+        m.get(p.meaning).get(p.choices);
     }
-    get(m, s.inputs);
-    m.get(s.camera).get(d.programs);
+    get(m, s.uniforms.inputs);
+    m.get(s.mesh).get(s.cubesTurnedBy).get(s.camera).get(d.programs);
 }
 
 bool send(int socket, const Message& message, std::span<const int> descriptors)
@@ -219,7 +221,7 @@ std::vector<std::string> fitting(const Stage& stage, const std::vector<std::stri
 {
     Stage bare;
     bare.id = stage.id;
-    bare.properties = stage.properties;
+    bare.uniforms.properties = stage.uniforms.properties;
     std::vector<std::string> known;
     for (const std::string& setting : settings) {
         if (PreparedStage::prepare(bare, {setting})) known.push_back(setting);
@@ -253,7 +255,7 @@ Expected<void> Drawing::prepare(const Look& look)
     const bool keep = prepared && files == look.files;
     Stage bare;
     bare.id = stage.id;
-    bare.properties = stage.properties;
+    bare.uniforms.properties = stage.uniforms.properties;
     Expected<PreparedStage> made =
         PreparedStage::prepare(keep ? bare : stage, settings, keep ? InputFiles{} : look.files);
     if (!made) return tl::unexpected(made.error());
@@ -305,7 +307,7 @@ Expected<Drawn> Drawing::draw(const Look& look)
     drawn.statistics = *statistics;
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
     drawn.milliseconds = time.count();
-    if (!frame->problem().empty()) return fail(frame->problem());
+    if (const std::string problem = prepared->problem(*frame); !problem.empty()) return fail(problem);
     std::memcpy(picture, target->color8().data(), pixels * sizeof(std::uint32_t));
     if (look.hash) {
         Expected<Framebuffer> exact = Framebuffer::create(look.width, look.height, Format::rgba32f, Store::keep);
@@ -366,7 +368,7 @@ std::vector<ViewName> Drawing::views() const
 
 void buildAllLevels(const LoadedInputs& inputs)
 {
-    for (const auto& texture : {inputs.albedo, inputs.height, inputs.normal, inputs.detail, inputs.detailNormal}) {
+    for (const auto& texture : inputs.textures) {
         if (texture) texture->level(texture->levelCount() - 1);
     }
 }

@@ -110,8 +110,8 @@ TEST_CASE("live: a save changes the picture, an error leaves it, a fix brings th
     edited.save(replaced(edited.text, "    SV_POSITION position;\n", ""));
     REQUIRE(edited.awaitProblem());
     CHECK(edited.session->problem()->diagnostics.front().line > 0);
-    edited.save(replaced(edited.text, "float4 operator()(Interpolators i) const\n    {\n        const float3 albedo",
-                         "float3 operator()(Interpolators i) const\n    {\n        const float3 albedo"));
+    edited.save(replaced(edited.text, "float4 operator()(Interpolators i) const {\n        const float3 albedo",
+                         "float3 operator()(Interpolators i) const {\n        const float3 albedo"));
     CHECK(edited.until([&] {
         return edited.session->problem()->diagnostics.front().message ==
                "the fragment program must take the Interpolators that the vertex program returns, and return float4";
@@ -135,8 +135,7 @@ TEST_CASE("live: camera, properties and size stay over a save, and of two saves 
     // A property that is gone does not stand in the way.
     std::string without = replaced(edited.text, "float3 albedo = tex2D(mainTex, i.uv * tiling).xyz() * tint.xyz()",
                                    "float3 albedo = tex2D(mainTex, i.uv * tiling).xyz()");
-    without = replaced(without, "{\"tint\", glm::vec4(1.0f)", "{\"tone\", glm::vec4(1.0f)");
-    edited.save(replaced(without, "s.vector(\"tint\")", "s.vector(\"tone\")"));
+    edited.save(replaced(without, "float4 tint = rgba(\"tint\"", "float4 tone = rgba(\"tone\""));
     const int version = edited.session->picture().version;
     REQUIRE(edited.awaitVersion(version + 1));
     CHECK(edited.session->problem() == nullptr);
@@ -223,9 +222,9 @@ TEST_CASE("live: a shader that crashes or never ends is named by its line, and t
     }
     SUBCASE("a stack without end, on a thread that has no room to tell")
     {
-        std::string text = replaced(edited.text, "struct MyFragmentProgram\n",
+        std::string text = replaced(edited.text, "struct MyFragmentProgram :",
                                     "int deeper(volatile int* at)\n{\n    volatile int here[64] = {*at};\n"
-                                    "    return deeper(here) + here[1];\n}\n\nstruct MyFragmentProgram\n");
+                                    "    return deeper(here) + here[1];\n}\n\nstruct MyFragmentProgram :");
         edited.save(replaced(text, "        return float4(albedo",
                              "        volatile int at = 0;\n        if (deeper(&at) == 1) return 0.0f;\n"
                              "        return float4(albedo"));
