@@ -5,6 +5,7 @@
 #include <string>
 
 #include "check/golden.h"
+#include "common/inside.h"
 #include "common/render.h"
 
 namespace relief::samples {
@@ -36,7 +37,10 @@ inline Expected<Framebuffer> renderForGolden(const Stage& stage, Format format, 
     if (!target) return target;
     Frame frame(*target, options);
     prepared->record(frame, kGoldenWidth, kGoldenHeight);
-    frame.run();
+    const std::vector<Label> none;
+    const bool isPicture = format == Format::rgba8Srgb;  // labels are the picture's, not the stage's
+    const Expected<Statistics> run = runInside(frame, *target, "", isPicture ? prepared->log->labels : none);
+    if (!run) return tl::unexpected(run.error());
     return target;
 }
 

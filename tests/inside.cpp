@@ -57,14 +57,12 @@ TEST_CASE("inside: an overlay's rectangles and letters are whole pixels, at any 
 {
     for (const auto& [width, height] : {std::pair{256, 256}, {961, 37}, {7, 3000}}) {
         Framebuffer target = *Framebuffer::create(width, height);
-        Frame frame(target, {.threads = 1});
-        frame.clear({1, 0, 0, 1});
+        for (std::uint32_t& pixel : target.color8()) pixel = 0xff0000ffu;
         Overlay overlay;
         overlay.rectangle({1, 2, 6, 12}, {10, 20, 30});
         overlay.text(2, 3, 1, "I", {200, 100, 50});  // a bar of 7 pixels between two of 3
         overlay.rectangle({width - 1, height - 1, width, height}, {1, 2, 3});
-        overlay.draw(frame, width, height);
-        frame.run();
+        overlay.draw(target);
         CHECK(pixelOf(target, 1, 2) == 0xff1e140au);
         CHECK(pixelOf(target, 5, 11) == 0xff1e140au);
         CHECK(pixelOf(target, 6, 11) == 0xff0000ffu);
@@ -100,6 +98,40 @@ TEST_CASE("inside: a triangle of a known depth has the legend's lowest colour, a
     CHECK(runInside(frame, target, "color").has_value());
     CHECK(pixelOf(target, 250, 200) == 0xff00ff00u);
     CHECK_FALSE(runInside(frame, target, "color ").has_value());
+}
+
+TEST_CASE("inside: a label stands in its cell, in lines that fit, and is the picture's alone")
+{
+    Stage stage;
+    stage.draw = [](const Scene& s) {
+        s.cutCell(1, 2);
+        s.label("right");
+        s.label("right");
+        s.label("from half on", 0.5f, 1.0f);
+        s.cutStrip(0.0f, 1.0f);
+        s.labelScale("0 to 10 degrees");
+    };
+    const Expected<PreparedStage> prepared = PreparedStage::prepare(stage);
+    REQUIRE(prepared.has_value());
+    Framebuffer target = *Framebuffer::create(200, 100);
+    Frame frame(target, {.threads = 1});
+    prepared->record(frame, 200, 100);
+    const std::vector<Label>& labels = prepared->log->labels;
+    REQUIRE(labels.size() == 3);
+    frame.run();
+    const std::uint32_t background = pixelOf(target, 0, 0);
+    REQUIRE(runInside(frame, target, "", labels).has_value());
+    CHECK(pixelOf(target, 99, 0) == background);
+    CHECK(pixelOf(target, 100, 0) != background);
+    CHECK(pixelOf(target, 150, 0) != background);
+    CHECK(pixelOf(target, 100, kLetterHeight + 2 * Overlay::kPadding) == background);
+    // Two lines, as one is wider than 50 pixels.
+    CHECK(textWidth("from half on") > 50);
+    CHECK(pixelOf(target, 150, kLineHeight + kLetterHeight + 2 * Overlay::kPadding - 1) != background);
+    CHECK(pixelOf(target, 150, kLineHeight + kLetterHeight + 2 * Overlay::kPadding) == background);
+    CHECK(pixelOf(target, 100, 91) != background);
+    CHECK(pixelOf(target, 100, 92) == background);
+    CHECK(frame.drawCount() == 0);
 }
 
 TEST_CASE("inside: every view of every stage has numbers, and none that is not finite")

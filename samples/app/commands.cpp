@@ -59,7 +59,7 @@ Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int thr
     Frame frame(*target, {.threads = threads});
     stage.record(frame, size.width, size.height);
     if (const std::string problem = stage.problem(frame); !problem.empty()) return fail(problem);
-    const Expected<Statistics> statistics = runInside(frame, *target, show);
+    const Expected<Statistics> statistics = runInside(frame, *target, show, stage.log->labels);
     if (!statistics) return fail("--show " + show + ": " + statistics.error().message);
     const Expected<void> written = writePng(path, *target);
     if (!written) return tl::unexpected(written.error());

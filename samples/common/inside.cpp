@@ -1,7 +1,6 @@
 #include "common/inside.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "common/overlay.h"
@@ -132,26 +131,23 @@ void addLegend(const Inspection& seen, Overlay& overlay)
 
 }  // namespace
 
-std::string shortNumber(float number)
+Expected<Statistics> runInside(Frame& frame, Framebuffer& target, const std::string& show,
+                               const std::vector<Label>& labels)
 {
-    char text[32];
-    const auto [end, error] = std::to_chars(text, text + sizeof text, number, std::chars_format::general, 4);
-    return {text, end};
-}
-
-Expected<Statistics> runInside(Frame& frame, Framebuffer& target, const std::string& show)
-{
-    if (show.empty()) return frame.run();
-    const Expected<Inspection> seen = inspect(frame, show);
-    if (!seen) return tl::unexpected(seen.error());
-    if (seen->showAs == ShowAs::picture) return seen->statistics;
-    paint(*seen, target.color8());
+    Statistics statistics;
     Overlay overlay;
-    addLegend(*seen, overlay);
-    Frame legend(target, {.threads = 1});
-    overlay.draw(legend, target.width(), target.height());
-    legend.run();
-    return seen->statistics;
+    for (const Label& label : labels) overlay.label(label, textScale(target.width(), target.height()));
+    if (show.empty() || show == "color") {
+        statistics = frame.run();
+    } else {
+        const Expected<Inspection> seen = inspect(frame, show);
+        if (!seen) return tl::unexpected(seen.error());
+        statistics = seen->statistics;
+        paint(*seen, target.color8());
+        addLegend(*seen, overlay);
+    }
+    overlay.draw(target);
+    return statistics;
 }
 
 }  // namespace relief::samples

@@ -1,6 +1,8 @@
 #include "common/overlay.h"
 
 #include <algorithm>
+#include <charconv>
+#include <sstream>
 
 namespace relief::samples {
 
@@ -41,6 +43,13 @@ int textScale(int width, int height)
     return std::max(1, std::min(width / 320, height / 270));
 }
 
+std::string shortNumber(float number)
+{
+    char text[32];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, number, std::chars_format::general, 4);
+    return {text, end};
+}
+
 void Overlay::rectangle(const Rectangle& r, const SrgbCode& color, float opacity)
 {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -59,19 +68,46 @@ void Overlay::text(int x, int y, int scale, std::string_view text, const SrgbCod
     }
 }
 
-void Overlay::label(int x, int y, int scale, std::string_view words)
+namespace {
+
+// Words, with newlines where a line would be wider than `width` pixels of the font.
+std::string wrapped(const std::string& words, int width)
 {
-    rectangle({x, y, x + labelWidth(words, scale), y + labelHeight(scale)}, {0, 0, 0}, kGround);
+    std::string result, line;
+    std::stringstream rest(words);
+    for (std::string word; rest >> word;) {
+        const bool fits = line.empty() || textWidth(line + " " + word) <= width;
+        if (!fits) line.clear();
+        result += (result.empty() ? "" : fits ? " " : "\n") + word;
+        line += (line.empty() ? "" : " ") + word;
+    }
+    return result;
+}
+
+}  // namespace
+
+void Overlay::label(const Label& label, int scale)
+{
+    const Rectangle& cell = label.cell;
+    const std::string words = wrapped(label.text, (cell.x1 - cell.x0) / scale - 2 * kPadding);
+    const auto lines = static_cast<int>(std::count(words.begin(), words.end(), '\n'));
+    const int width = (textWidth(words) + 2 * kPadding) * scale;
+    const int height = (lines * kLineHeight + kLetterHeight + 2 * kPadding) * scale;
+    // The scale's upper edge is at 0.93 of the height.
+    const int x = label.isScale ? (cell.x0 + cell.x1 - width) / 2 : cell.x0;
+    const int y = label.isScale ? cell.y0 + (cell.y1 - cell.y0) * 92 / 100 - height : cell.y0;
+    rectangle({x, y, x + width, y + height}, {0, 0, 0}, 0.9f);
     text(x + kPadding * scale, y + kPadding * scale, scale, words);
 }
 
-void Overlay::draw(Frame& frame, int width, int height) const
+void Overlay::draw(Framebuffer& target) const
 {
     if (mesh.indices.empty()) return;
-    frame.setViewport({0, 0, width, height});
-    frame.setScissor({0, 0, width, height});
-    frame.draw(mesh, PixelVertexProgram{static_cast<float>(width), static_cast<float>(height)}, ColorFragmentProgram{},
+    Frame frame(target, {.threads = 1});
+    const PixelVertexProgram vertex = {static_cast<float>(target.width()), static_cast<float>(target.height())};
+    frame.draw(mesh, vertex, ColorFragmentProgram{},
                {.depthTest = Compare::always, .depthWrite = false, .cull = Cull::none, .blend = Blend::alpha});
+    frame.run();
 }
 
 }  // namespace relief::samples

@@ -1,8 +1,9 @@
 // The small print of a picture: rectangles and text in whole pixels, over all that is drawn. It is a mesh and goes
-// through the pipeline as a draw of its own, so it is there wherever a frame is: in any format, in the window, in a
-// golden, and with the same bits.
+// through the pipeline, so it works on any format and has the same bits everywhere. It does so in a frame of its own,
+// afterwards: what is counted, hashed and looked into is the stage's alone.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "common/ramp.h"
@@ -14,7 +15,23 @@ namespace relief::samples {
 // How many pixels wide and high a pixel of the font is, in a picture of this size: 1 up to 639 x 539, 2 from there on.
 int textScale(int width, int height);
 
+// A number in few letters: four digits, "0.9873", "1.5e-05".
+std::string shortNumber(float number);
+
 inline constexpr SrgbCode kInk = {255, 244, 224};
+
+// A few words about a part of the picture: what it shows.
+struct Label
+{
+    std::string text;
+    Rectangle cell;  // in its upper left corner
+    bool isScale;    // or in its middle, over the scale at its lower edge (false_color.h)
+
+    friend bool operator==(const Label& a, const Label& b)
+    {
+        return a.text == b.text && a.cell.x0 == b.cell.x0 && a.cell.y0 == b.cell.y0 && a.isScale == b.isScale;
+    }
+};
 
 class Overlay
 {
@@ -25,18 +42,13 @@ public:
     // Its upper left corner at (x, y).
     void text(int x, int y, int scale, std::string_view text, const SrgbCode& color = kInk);
 
-    // Text on a dark ground that is as large as it needs: legible over everything.
-    void label(int x, int y, int scale, std::string_view text);
+    // On a dark ground, which is legible over everything; in lines as long as its cell allows.
+    void label(const Label& label, int scale);
 
-    // As the next draw of the frame, onto a target of this size. The overlay must live until the frame has run.
-    void draw(Frame& frame, int width, int height) const;
-
-    // Of a label, in pixels.
-    static int labelWidth(std::string_view text, int scale) { return (textWidth(text) + 2 * kPadding) * scale; }
-    static int labelHeight(int scale) { return (kLetterHeight + 2 * kPadding) * scale; }
+    // Onto what the target holds.
+    void draw(Framebuffer& target) const;
 
     static constexpr int kPadding = 3;  // pixels of the font
-    static constexpr float kGround = 0.9f;
 
 private:
     Mesh mesh;  // positions in pixels

@@ -111,6 +111,7 @@ void SceneLog::clear()
     }
     drawn.clear();
     notes.clear();
+    labels.clear();
     problem.clear();
     passesLeftOut = 0;
     kept.clear();
@@ -172,6 +173,21 @@ sampler2D Scene::samplerOf(const Texture& made) const
 {
     log.textures.insert(&made);
     return {.texture = &made};
+}
+
+void Scene::label(const std::string& words, float from, float to) const
+{
+    const Rectangle& all = log.scissor;
+    const auto column = [&all](float part) {
+        return all.x0 + static_cast<int>(part * static_cast<float>(all.x1 - all.x0));
+    };
+    const Label label = {words, {column(from), all.y0, column(to), all.y1}, false};
+    if (std::find(log.labels.begin(), log.labels.end(), label) == log.labels.end()) log.labels.push_back(label);
+}
+
+void Scene::labelScale(const std::string& words) const
+{
+    log.labels.push_back({words, log.scissor, true});
 }
 
 void Scene::note(const std::string& line) const

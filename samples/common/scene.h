@@ -11,6 +11,7 @@
 
 #include "common/camera.h"
 #include "common/input_files.h"
+#include "common/overlay.h"
 #include "common/uniforms.h"
 #include "shading/normals.h"
 #include "shading/tangent_space.h"
@@ -47,6 +48,7 @@ struct SceneLog
     };
     std::vector<Drawn> drawn;
     std::vector<std::string> notes;  // what was left out, and what was measured; for explain
+    std::vector<Label> labels;       // for who shows the picture (inside.h)
     std::string problem;             // with the stage itself, one line
     int passesLeftOut = 0;           // by Scene::reaches
     std::deque<Mesh> kept;           // meshes that the scene made
@@ -105,6 +107,13 @@ public:
     // The next draws go into one of `columns` * `rows` cells of the picture, from the top left one, seen by the same
     // camera in each: what stands at the origin looks the same in all of them.
     void cutCell(int column, int columns, int row = 0, int rows = 1) const;
+
+    // A few words about the cell, the strip or the whole picture that the next draws go to, or about what lies between
+    // two fractions of its width: what it shows. Saying it again changes nothing.
+    void label(const std::string& words, float from = 0.0f, float to = 1.0f) const;
+
+    // The same about a scale at its lower edge, which false_color.h draws.
+    void labelScale(const std::string& words) const;
 
     // For meshes that a stage makes: they live until the frame has run. For textures that it makes and that live
     // longer: explain knows of them. And a line for explain.

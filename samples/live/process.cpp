@@ -301,13 +301,13 @@ Expected<Drawn> Drawing::draw(const Look& look)
     Drawn drawn{.width = look.width, .height = look.height, .camera = prepared->camera()};
     const auto begin = std::chrono::steady_clock::now();
     prepared->record(*frame, look.width, look.height);
+    if (const std::string problem = prepared->problem(*frame); !problem.empty()) return fail(problem);
     const bool isThere = look.strict || look.show.empty() || findView(*frame, look.show);
-    const Expected<Statistics> statistics = runInside(*frame, *target, isThere ? look.show : "");
+    const Expected<Statistics> statistics = runInside(*frame, *target, isThere ? look.show : "", prepared->log->labels);
     if (!statistics) return tl::unexpected(statistics.error());
     drawn.statistics = *statistics;
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
     drawn.milliseconds = time.count();
-    if (const std::string problem = prepared->problem(*frame); !problem.empty()) return fail(problem);
     std::memcpy(picture, target->color8().data(), pixels * sizeof(std::uint32_t));
     if (look.hash) {
         Expected<Framebuffer> exact = Framebuffer::create(look.width, look.height, Format::rgba32f, Store::keep);
