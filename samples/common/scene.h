@@ -67,7 +67,7 @@ struct SceneLog
 
 struct TangentSpaceVisualizer;
 
-class Scene : private UniformSource
+class Scene final : private UniformSource
 {
 public:
     Scene(Frame& frame, SceneLog& log, int width, int height, const Camera& camera, const LoadedInputs& inputs,
@@ -133,7 +133,6 @@ private:
     sampler2D texture(TextureSlot slot, const char* file, const ImportSettings& settings) const override;
 
     SceneLog& log;
-    bool usersMesh;
     glm::mat4 clipFromWorld;
     glm::vec3 cameraPosition;
     const std::vector<Property>& properties;
