@@ -106,8 +106,7 @@ TEST_CASE("inside: a label stands in its cell, in lines that fit, and is the pic
     stage.draw = [](const Scene& s) {
         s.cutCell(1, 2);
         s.label("right");
-        s.label("right");
-        s.label("from half on", 0.5f, 1.0f);
+        s.labelColumns({"", "", "", "the last column"});
         s.cutStrip(0.0f, 1.0f);
         s.labelScale("0 to 10 degrees");
     };
@@ -117,7 +116,7 @@ TEST_CASE("inside: a label stands in its cell, in lines that fit, and is the pic
     Frame frame(target, {.threads = 1});
     prepared->record(frame, 200, 100);
     const std::vector<Label>& labels = prepared->log->labels;
-    REQUIRE(labels.size() == 3);
+    REQUIRE(labels.size() == 6);
     frame.run();
     const std::uint32_t background = pixelOf(target, 0, 0);
     REQUIRE(runInside(frame, target, "", labels).has_value());
@@ -126,7 +125,7 @@ TEST_CASE("inside: a label stands in its cell, in lines that fit, and is the pic
     CHECK(pixelOf(target, 150, 0) != background);
     CHECK(pixelOf(target, 100, kLetterHeight + 2 * Overlay::kPadding) == background);
     // Two lines, as one is wider than 50 pixels.
-    CHECK(textWidth("from half on") > 50);
+    CHECK(textWidth("the last column") > 44);
     CHECK(pixelOf(target, 150, kLineHeight + kLetterHeight + 2 * Overlay::kPadding - 1) != background);
     CHECK(pixelOf(target, 150, kLineHeight + kLetterHeight + 2 * Overlay::kPadding) == background);
     CHECK(pixelOf(target, 100, 91) != background);

@@ -66,6 +66,7 @@ Stage basics_02_interpolators() {
                 };
                 draw(-0.56f, false);
                 draw(0.56f, true);
+                s.labelColumns({"with perspective", "affine"});
             }};
 }
 

@@ -68,6 +68,7 @@ Stage basics_03_depth() {
                         if (view == 2) s.draw(s.mesh, vertex, ShowInverseW{}, kBothSides);
                     }
                 }
+                s.labelColumns({"colour", "depth: 0 black, 1 white", "1 / w: 0 black, 1 white"});
             }};
 }
 

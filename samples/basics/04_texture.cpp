@@ -79,6 +79,7 @@ Stage basics_04_texture() {
                 strip(1, MyFragmentProgram{mainTex});
                 mainTex.filter = Filter::nearest;
                 strip(0, MyFragmentProgram{mainTex});
+                s.labelColumns({"nearest", "bilinear", "trilinear", "anisotropic", "mip level: red 0, blue 4"});
             }};
 }
 

@@ -70,6 +70,7 @@ Stage basics_06_first_light() {
                         s.draw(s.mesh, MyVertexProgram(uniforms), fragment);
                     }
                 }
+                s.label("metal above, plastic below; smoother from left to right");
             }};
 }
 

@@ -72,6 +72,7 @@ Stage bumpiness_13_albedo_and_bumps() {
                 fragment.bumpScale = 0.0f;
                 s.cutStrip(0.0f, 0.5f);
                 s.draw(*quad.mesh, MyVertexProgram(uniforms), fragment);
+                s.labelColumns({"without bumps", "with bumps"});
             }};
 }
 

@@ -75,6 +75,7 @@ Stage bumpiness_22_mirrored() {
                                         {&s.mesh, turned * scaling({-1, 1, 1})},
                                         {&mirroredUv, translation({1.55f, 0, 0}) * turned}};
                 for (const Object& o : three) s.draw<MyVertexProgram, MyFragmentProgram>(o);
+                s.labelColumns({"as it is", "mirrored by its scale", "mirrored uv"});
             }};
 }
 

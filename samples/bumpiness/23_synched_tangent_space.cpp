@@ -87,6 +87,7 @@ Stage bumpiness_23_synched_tangent_space() {
                 s.cutCell(3, 4);
                 s.draw(baked.low, vertex, fragment);
                 for (const std::string& line : baked.measured) s.note(line);
+                s.labelColumns({"detailed", "coarse, with its map", "other tangents", "renormalised"});
             }};
 }
 

@@ -130,6 +130,7 @@ Stage bumpiness_24_binormal_per_vertex_or_fragment() {
             if (!both) return;
             s.cutCell(2, 3);
             s.draw(*o.mesh, MyVertexProgram<false>(uniforms), ShowDifference{uniforms, uniforms, choice.exaggeration});
+            s.labelColumns({"per vertex", "per fragment", "difference x " + shortNumber(choice.exaggeration[0])});
         }};
 }
 

@@ -85,7 +85,8 @@ Stage bumpy_surfaces_02_approximate_root() {
                 s.cutCell(2, 3);
                 const Float red = Scale(uniforms).maximumAngle;
                 s.draw(s.mesh, vertex, ShowAngle<Interpolators, MyFragmentProgram>{exact, approximate, red});
-                drawScale(s, 3);
+                drawScale(s, 3, red);
+                s.labelColumns({"by the root", "without a root", "angle"});
             }};
 }
 

@@ -90,7 +90,8 @@ Stage bumpy_surfaces_03_rgb_normal_map() {
             s.cutCell(2, 3);
             const Float red = Scale(uniforms).maximumAngle;
             s.draw(s.mesh, vertex, ShowAngle<Interpolators, MyFragmentProgram>{computed, stored, red});
-            drawScale(s, 3);
+            drawScale(s, 3, red);
+            s.labelColumns({"z computed", "z stored", "angle"});
         }};
 }
 

@@ -77,6 +77,7 @@ Stage bumpy_surfaces_04_non_uniform_scale() {
                 vertex.wrong = true;
                 s.cutCell(1, 2);
                 s.draw(s.mesh, vertex, fragment);
+                s.labelColumns({"inverse transpose", "wrong: the matrix itself"});
             }};
 }
 

@@ -74,9 +74,10 @@ struct ShowAngle
     }
 };
 
-// The scale from 0 (left) to 1 (right), in one of `count` columns of the picture.
-inline void drawScale(const Scene& s, int count)
+// The scale from 0 (left) to 1 (right), which is so many degrees, in one of `count` columns of the picture.
+inline void drawScale(const Scene& s, int count, Float maximumAngle)
 {
+    s.labelScale("0 to " + shortNumber(maximumAngle[0]) + " degrees");
     s.draw(primitive("quad"), detail::ScaleVertexProgram{0.85f / static_cast<float>(count)},
            detail::ScaleFragmentProgram{});
 }

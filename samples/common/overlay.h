@@ -26,11 +26,6 @@ struct Label
     std::string text;
     Rectangle cell;  // in its upper left corner
     bool isScale;    // or in its middle, over the scale at its lower edge (false_color.h)
-
-    friend bool operator==(const Label& a, const Label& b)
-    {
-        return a.text == b.text && a.cell.x0 == b.cell.x0 && a.cell.y0 == b.cell.y0 && a.isScale == b.isScale;
-    }
 };
 
 class Overlay

@@ -175,14 +175,18 @@ sampler2D Scene::samplerOf(const Texture& made) const
     return {.texture = &made};
 }
 
-void Scene::label(const std::string& words, float from, float to) const
+void Scene::labelColumns(std::initializer_list<std::string> words, int row, int rows) const
 {
-    const Rectangle& all = log.scissor;
-    const auto column = [&all](float part) {
-        return all.x0 + static_cast<int>(part * static_cast<float>(all.x1 - all.x0));
-    };
-    const Label label = {words, {column(from), all.y0, column(to), all.y1}, false};
-    if (std::find(log.labels.begin(), log.labels.end(), label) == log.labels.end()) log.labels.push_back(label);
+    int column = 0;
+    for (const std::string& word : words) {
+        log.labels.push_back({word, cellAt(column, static_cast<int>(words.size()), row, rows), false});
+        ++column;
+    }
+}
+
+void Scene::label(const std::string& words) const
+{
+    log.labels.push_back({words, log.scissor, false});
 }
 
 void Scene::labelScale(const std::string& words) const
@@ -279,11 +283,15 @@ void Scene::cutStrip(float from, float to) const
     cut({0, 0, width, height}, {column(from), 0, column(to), height});
 }
 
+Rectangle Scene::cellAt(int column, int columns, int row, int rows) const
+{
+    return {column * width / columns, row * height / rows, (column + 1) * width / columns, (row + 1) * height / rows};
+}
+
 void Scene::cutCell(int column, int columns, int row, int rows) const
 {
-    const int left = column * width / columns, right = (column + 1) * width / columns;
-    const int top = row * height / rows, bottom = (row + 1) * height / rows;
-    cut({(left + right - width) / 2, (top + bottom - height) / 2, width, height}, {left, top, right, bottom});
+    const Rectangle cell = cellAt(column, columns, row, rows);
+    cut({(cell.x0 + cell.x1 - width) / 2, (cell.y0 + cell.y1 - height) / 2, width, height}, cell);
 }
 
 }  // namespace relief::samples

@@ -108,9 +108,10 @@ public:
     // camera in each: what stands at the origin looks the same in all of them.
     void cutCell(int column, int columns, int row = 0, int rows = 1) const;
 
-    // A few words about the cell, the strip or the whole picture that the next draws go to, or about what lies between
-    // two fractions of its width: what it shows. Saying it again changes nothing.
-    void label(const std::string& words, float from = 0.0f, float to = 1.0f) const;
+    // A few words about each column of the picture, or of one of its rows: what it shows. And about what the next draws
+    // go to, a cell, a strip or the whole picture.
+    void labelColumns(std::initializer_list<std::string> words, int row = 0, int rows = 1) const;
+    void label(const std::string& words) const;
 
     // The same about a scale at its lower edge, which false_color.h draws.
     void labelScale(const std::string& words) const;
@@ -127,6 +128,7 @@ public:
 
 private:
     const Mesh& prepare(const Mesh& drawn, std::span<const Field> vertexData, const float4x4* worldFromObject) const;
+    Rectangle cellAt(int column, int columns, int row, int rows) const;
     void cut(const Viewport& viewport, const Rectangle& scissor) const;
     void leftOut(const std::string& name, const Object& object) const;
     glm::vec4 value(const Declaration& declaration) const override;

@@ -73,6 +73,7 @@ Stage triplanar_01_monoplanar_and_triplanar() {
                 drawTerrain<false>(s);
                 s.cutCell(1, 2);
                 drawTerrain<true>(s);
+                s.labelColumns({"from above", "from three sides"});
             }};
 }
 

@@ -90,6 +90,7 @@ Stage triplanar_02_mesh_tangents() {
                 if (show != 2) drawObjects(s, false);
                 if (show == 0) s.cutCell(1, 2);
                 if (show != 1) drawObjects(s, true);
+                if (show == 0) s.labelColumns({"wrong: the mesh's tangents", "as it should be"});
             }};
 }
 

@@ -98,6 +98,8 @@ Stage triplanar_06_gpu_gems_3() {
                     if (choice.show == 0) s.cutStrip(0.5f, 1.0f);
                     if (choice.show != 1) s.draw(*o.mesh, vertex, ShowDifference{uniforms, choice.exaggeration});
                 }
+                if (choice.show == 0)
+                    s.labelColumns({"GPU Gems 3", "difference to UDN x " + shortNumber(choice.exaggeration[0])});
             }};
 }
 

@@ -80,6 +80,7 @@ Stage triplanar_09_faceted_normals() {
                 drawObjects<false>(s);
                 s.cutCell(1, 2);
                 drawObjects<true>(s);
+                s.labelColumns({"interpolated normal", "the triangle's normal"});
             }};
 }
 

@@ -98,6 +98,8 @@ void drawAll(const Scene& s) {
         ++column;
     };
     (drawOne.template operator()<kind>(), ...);
+    if (only == Weights())
+        s.labelColumns({"linear", "0.2 off", "0.2 off x 7", "power 4", "asymmetric", "by height", "wrong: 0.65 off"});
 }
 
 }  // namespace

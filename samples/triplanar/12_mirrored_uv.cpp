@@ -98,6 +98,7 @@ Stage triplanar_12_mirrored_uv() {
                 drawShape<false, true>(s);
                 s.cutCell(3, 4);
                 drawShape<true, true>(s);
+                s.labelColumns({"wrong: mirrored", "planes shifted", "sides flipped", "both"});
             }};
 }
 

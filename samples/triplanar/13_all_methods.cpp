@@ -132,6 +132,12 @@ Stage triplanar_13_all_methods() {
             .camera = {.position = {2.9f, 2.9f, -5.1f}},
             .draw = [](const Scene& s) {
                 drawAll<MeshTangents, Swizzle, Udn, GpuGems3, Whiteout, Reoriented, CotangentFrame, CrossProducts>(s);
+                s.labelColumns({"mesh tangents", "swizzle", "UDN", "GPU Gems 3", "whiteout", "RNM", "cotangent frame",
+                                "cross products"});
+                const Float red = MyFragmentProgram<Udn, 1>(s.uniforms()).maximumAngle;
+                const std::string scale = ", red: " + shortNumber(red[0]) + " degrees";
+                s.labelColumns({"angle to the truth along the projection" + scale}, 1, 3);
+                s.labelColumns({"angle to the truth along the normal" + scale}, 2, 3);
                 s.cutStrip(0.0f, 1.0f);
                 s.note("degrees at a tilt of 45 and a slope of 0.5: maximum and RMS to each truth");
                 for (const MethodError& e : triplanarErrors(45.0f, 0.5f)) s.note(formatted(e));
