@@ -117,7 +117,16 @@ std::vector<Diagnostic> parseDiagnostics(const std::string& output, const std::s
             open = false;
         }
     }
-    if (found.empty() && !output.empty()) found.push_back({.file = path, .message = linesOf(output).back()});
+    if (found.empty() && !output.empty()) {
+        static const std::regex stale("file '([^']+)' has been modified since the precompiled header");
+        std::smatch header;
+        const std::string message = std::regex_search(output, header, stale)
+                                        ? header[1].str() +
+                                              ": has changed since Relief was built; close this, and "
+                                              "start it by ./relief again, which builds what is needed"
+                                        : linesOf(output).back();
+        found.push_back({.file = path, .message = message});
+    }
     std::stable_sort(found.begin(), found.end(),
                      [](const Diagnostic& a, const Diagnostic& b) { return a.fromCheck && !b.fromCheck; });
     const auto same = [](const Diagnostic& a, const Diagnostic& b) {

@@ -50,6 +50,16 @@ TEST_CASE("live: the engine's own sentences come first, at the line that drew")
     }
 }
 
+TEST_CASE("live: a header that is newer than what was built of it is named, with what to do")
+{
+    const std::string output =
+        "fatal error: file '/r/samples/common/materials.h' has been modified since the precompiled header '/r/h.pch' "
+        "was built: mtime changed (was 1, now 2)\nnote: please rebuild precompiled header '/r/h.pch'\n";
+    const std::vector<Diagnostic> found = parseDiagnostics(output, "/r/a.cpp", "");
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].message.starts_with("/r/samples/common/materials.h: has changed since Relief was built"));
+}
+
 TEST_CASE("live: types are called as in a stage")
 {
     const auto found = parseDiagnostics(
