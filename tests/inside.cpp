@@ -175,7 +175,8 @@ TEST_CASE("inside: the pictures of the views have the same bits everywhere")
     };
     const Expected<PreparedStage> prepared = PreparedStage::prepare(**findStage("1.25"));
     REQUIRE(prepared.has_value());
-    for (const auto& [view, hash] : expected) {
+    for (const auto& [name, hash] : expected) {
+        const std::string view = name;
         CAPTURE(view);
         for (const FrameOptions& options : {FrameOptions{.threads = 1}, {.threads = 3, .tileSize = 32}}) {
             Framebuffer target = *Framebuffer::create(320, 180);
