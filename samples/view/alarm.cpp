@@ -1,5 +1,7 @@
 #include "view/alarm.h"
 
+#include <algorithm>
+
 #include <SDL.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -31,14 +33,12 @@ Alarm::~Alarm()
 
 void Alarm::arm(std::vector<int> newDescriptors, std::chrono::milliseconds newPatience)
 {
-    {
-        const std::lock_guard lock(mutex);
-        descriptors = std::move(newDescriptors);
-        patience = newPatience;
-        armed = true;
-    }
+    const std::lock_guard lock(mutex);
+    descriptors = std::move(newDescriptors);
+    patience = newPatience;
+    armed = true;
+    [[maybe_unused]] const ssize_t sent = ::write(pipe[1], "", 1);  // before run() may go on: it drains this
     told.notify_one();
-    [[maybe_unused]] const ssize_t sent = ::write(pipe[1], "", 1);
 }
 
 void Alarm::run()

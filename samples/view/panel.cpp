@@ -203,9 +203,17 @@ bool Interface::control(const Property& p, const Control& control, glm::vec4& va
             return changed;
         }
         case Kind::color: {
-            const ImGuiColorEditFlags how = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_AlphaPreviewHalf;
-            return p.components == 4 ? ImGui::ColorEdit4("##value", &value.x, how | ImGuiColorEditFlags_NoInputs)
-                                     : ImGui::ColorEdit3("##value", &value.x, how | ImGuiColorEditFlags_NoInputs);
+            const ImGuiColorEditFlags how = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_AlphaPreviewHalf |
+                                            ImGuiColorEditFlags_NoInputs;
+            changed = p.components == 4 ? ImGui::ColorEdit4("##value", &value.x, how)
+                                        : ImGui::ColorEdit3("##value", &value.x, how);
+            ImGui::SameLine();
+            ImGui::AlignTextToFramePadding();
+            char numbers[64];
+            std::snprintf(numbers, sizeof numbers, "%.2f %.2f %.2f", static_cast<double>(value.x),
+                          static_cast<double>(value.y), static_cast<double>(value.z));
+            ImGui::TextDisabled("%s", numbers);
+            return changed;
         }
         case Kind::vector: {
             const float width = ImGui::CalcItemWidth(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -276,7 +284,7 @@ void Interface::pictureSection()
     live::Look look = viewer.look();
     bool changed = false;
     row("size", false, false);
-    static constexpr const char* kFits[] = {"fixed", "fills the window, 16:9", "fills the window"};
+    static constexpr const char* kFits[] = {"fixed", "window, 16:9", "window"};
     if (ImGui::BeginCombo("##fit", kFits[static_cast<int>(viewer.fit)])) {
         for (int i = 0; i < 3; ++i) {
             if (ImGui::Selectable(kFits[i], i == static_cast<int>(viewer.fit))) viewer.fit = static_cast<Fit>(i);

@@ -31,6 +31,7 @@ void label(ImDrawList& list, ImVec2 corner, const std::string& text, float pad, 
 void Interface::pictureArea()
 {
     const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    ImGui::GetWindowDrawList()->AddRectFilled(corner, ImVec2(corner.x + room.x, corner.y + room.y), 0xff151312);
     viewer.fitTo(static_cast<int>(room.x), static_cast<int>(room.y));
     const Pixels& shown = viewer.shown();
     pointed.reset();

@@ -63,6 +63,7 @@ Window::~Window()
 
 Expected<void> Window::open(int width, int height, float scale)
 {
+    SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");  // it would load OpenGL, which takes longer than all the rest
     SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     if (SDL_Init(SDL_INIT_VIDEO) == 0) {
@@ -77,7 +78,10 @@ Expected<void> Window::open(int width, int height, float scale)
                                   side(height, room.h), SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     }
     if (window != nullptr) renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
-    if (renderer != nullptr) return {};
+    if (renderer != nullptr) {
+        SDL_SetWindowMinimumSize(window, 480, 320);
+        return {};
+    }
     return fail(std::string("view: cannot open a window (") + SDL_GetError() + "); `relief render` needs none");
 }
 
