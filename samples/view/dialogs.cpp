@@ -42,7 +42,7 @@ void Interface::press(int key, bool control, bool shift)
             dialog = Dialog::save;
         }
         if (key == SDLK_f) {
-            panelShown = true;
+            panelShown = searching = true;
             chosenTab = 1;
         }
         if (key == SDLK_q) running = false;
@@ -166,7 +166,8 @@ void Interface::savePicture()
     if (!beginDialog(Dialog::save, "Save the picture")) return;
     ImGui::SetNextItemWidth(points(420.0f));
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    bool save = ImGui::InputText("##file", &savePath, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool save = ImGui::InputText("##file", &savePath,
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     place("save.file");
     if (!dialogProblem.empty()) {
         ImGui::PushTextWrapPos(points(420.0f));
@@ -192,7 +193,7 @@ void Interface::recordTurn()
     if (!beginDialog(Dialog::turn, "Record a turn")) return;
     ImGui::TextDisabled("The camera goes once around what it looks at: one PNG for each frame.");
     ImGui::SetNextItemWidth(points(300.0f));
-    ImGui::InputText("folder", &turnFolder);
+    ImGui::InputText("folder", &turnFolder, ImGuiInputTextFlags_AutoSelectAll);
     place("turn.folder");
     ImGui::SetNextItemWidth(points(300.0f));
     ImGui::SliderInt("frames", &turnFrames, 2, 360, "%d", ImGuiSliderFlags_AlwaysClamp);

@@ -3,6 +3,7 @@
 #include <SDL.h>
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "view/style.h"
 
@@ -37,19 +38,22 @@ bool Interface::button(const char* label, const std::string& name, const char* m
 
 void Interface::draw()
 {
+    if (closeLists) ImGui::ClosePopupToLevel(0, true);
+    closeLists = false;
     places.clear();
     thumbnailsWanted = false;
     thumbnailBudget = 3;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(0.0f, 0.0f));
     ImGui::SetNextWindowSize(size);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0.0f, 0.0f));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0.0f, 0.0f));
     ImGui::Begin("window", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus |
                      ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar(3);
     const float status = ImGui::GetFrameHeight() + points(8.0f);
     const auto part = [&](const char* name, ImVec2 extent, ImVec2 padding, auto contents) {
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
@@ -75,7 +79,7 @@ void Interface::draw()
     part("status", ImVec2(0.0f, status), ImVec2(padding.x, points(4.0f)), [&] { this->status(); });
     ImGui::EndGroup();
     ImGui::End();
-    ImGui::PopStyleVar(4);
+    ImGui::PopStyleVar();
     dialogs();
 }
 
@@ -104,6 +108,11 @@ void Interface::take(const SDL_Event& event)
     }
     if (event.type == SDL_KEYUP && event.key.keysym.sym == SDLK_m) magnifying = false;
     if (event.type != SDL_KEYDOWN || (io.WantTextInput && event.key.keysym.sym != SDLK_ESCAPE)) return;
+    const bool listOpen = dialog == Dialog::none && ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    if (listOpen && event.key.keysym.sym == SDLK_ESCAPE) {
+        closeLists = true;
+        return;
+    }
     const Uint16 held = event.key.keysym.mod;
     press(event.key.keysym.sym, (held & (KMOD_CTRL | KMOD_GUI)) != 0, (held & KMOD_SHIFT) != 0);
 }

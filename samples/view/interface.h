@@ -99,7 +99,7 @@ private:
     Viewer& viewer;
     Window& window;
     std::string search, notice;
-    bool panelShown = true, thumbnailsWanted = false;
+    bool panelShown = true, thumbnailsWanted = false, closeLists = false, searching = false;
     std::optional<float> newScale;
     int chosenTab = -1;  // one that is to come to the front
 

@@ -205,6 +205,7 @@ void Interface::problem(float x, float y, float width, float height)
     ImGui::SetNextWindowSizeConstraints(ImVec2(wide, 0.0f), ImVec2(wide, std::max(height * 0.45f, points(120.0f))));
     ImGui::SetNextWindowBgAlpha(0.96f);
     ImGui::PushStyleColor(ImGuiCol_Border, kVermilion);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(points(14.0f), points(12.0f)));
     ImGui::Begin("##problem", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
@@ -225,6 +226,7 @@ void Interface::problem(float x, float y, float width, float height)
         }
     }
     ImGui::End();
+    ImGui::PopStyleVar();
     ImGui::PopStyleColor();
 }
 

@@ -1,6 +1,7 @@
 // The panel's second tab: chapters and stages, with their pictures, and a search.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -38,10 +39,11 @@ void Interface::thumbnail(const live::StageSource& source, float width, float he
 void Interface::stagesTab()
 {
     ImGui::SetNextItemWidth(-1.0f);
+    if (std::exchange(searching, false)) ImGui::SetKeyboardFocusHere();
     ImGui::InputTextWithHint("##search", "Search: normals, 1.2, triplanar ...", &search);
     place("search");
     ImGui::BeginChild("stages");
-    const float width = points(96.0f), height = points(54.0f), gap = points(8.0f);
+    const float width = points(96.0f), height = points(54.0f), gap = points(12.0f);
     std::string tutorial;
     int shown = 0;
     for (const Listed& stage : listedStages()) {

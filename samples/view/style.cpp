@@ -71,6 +71,8 @@ void applyStyle(float scale)
                   {ImGuiCol_TabActive, accent},
                   {ImGuiCol_PlotLines, {0.34f, 0.71f, 0.91f, 1.0f}},
                   {ImGuiCol_PlotHistogram, {0.34f, 0.71f, 0.91f, 1.0f}},
+                  {ImGuiCol_TitleBgActive, accent},
+                  {ImGuiCol_ModalWindowDimBg, grey(0.0f, 0.45f)},
                   {ImGuiCol_Separator, grey(0.25f)}};
     for (const auto& [where, color] : colors) style.Colors[where] = color;
     style.ScaleAllSizes(scale);
