@@ -49,9 +49,9 @@ Expected<Camera> parseCamera(const std::string& text)
                          ": write X,Y,Z, such as 1,1,-2, or with what it looks at X,Y,Z,X,Y,Z, then the field of view "
                          "in degrees, then the two planes; 0.1 to 90 from there and not straight above or below"};
     Camera camera;
-    float* const numbers[] = {&camera.position.x, &camera.position.y,  &camera.position.z,
-                              &camera.target.x,   &camera.target.y,    &camera.target.z,
-                              &camera.fieldOfView, &camera.nearPlane, &camera.farPlane};
+    float* const numbers[] = {&camera.position.x,  &camera.position.y, &camera.position.z,
+                              &camera.target.x,    &camera.target.y,   &camera.target.z,
+                              &camera.fieldOfView, &camera.nearPlane,  &camera.farPlane};
     const char* at = text.data();
     const char* const end = at + text.size();
     std::size_t count = 0;

@@ -14,7 +14,8 @@ namespace {
 std::string word(const std::string& text)
 {
     const auto plain = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string("_-./,=+:@%").find(c) != std::string::npos;
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+               std::string("_-./,=+:@%").find(c) != std::string::npos;
     };
     return !text.empty() && std::all_of(text.begin(), text.end(), plain) ? text : quoted(text);
 }

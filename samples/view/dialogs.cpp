@@ -103,9 +103,9 @@ bool Interface::beginDialog(Dialog which, const char* title)
     if (dialog == which && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(size.x / 2.0f, size.y / 2.0f), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
-    if (!ImGui::BeginPopupModal(title, nullptr,
-                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
-                                    ImGuiWindowFlags_NoSavedSettings)) {
+    if (!ImGui::BeginPopupModal(
+            title, nullptr,
+            ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
         return false;
     }
     if (dialog == which) return true;
@@ -166,8 +166,8 @@ void Interface::savePicture()
     if (!beginDialog(Dialog::save, "Save the picture")) return;
     ImGui::SetNextItemWidth(points(420.0f));
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    bool save = ImGui::InputText("##file", &savePath,
-                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    bool save =
+        ImGui::InputText("##file", &savePath, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     place("save.file");
     if (!dialogProblem.empty()) {
         ImGui::PushTextWrapPos(points(420.0f));
@@ -236,7 +236,8 @@ void Interface::dropped()
     for (const Slot& slot : viewer.slots()) {
         if ((std::string(slot.name) == "mesh") != mesh) continue;
         ++count;
-        if (!button(("The " + std::string(slot.name) + (mesh ? "" : " map")).c_str(), std::string("drop.") + slot.name)) {
+        if (!button(("The " + std::string(slot.name) + (mesh ? "" : " map")).c_str(),
+                    std::string("drop.") + slot.name)) {
             continue;
         }
         live::Look look = viewer.look();

@@ -106,6 +106,8 @@ void Interface::take(const SDL_Event& event)
         SDL_free(event.drop.file);
         if (dialog == Dialog::none) dialog = Dialog::drop;
     }
+    if (event.type == SDL_KEYDOWN || event.type == SDL_MOUSEBUTTONDOWN) notice.clear();
+    if (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) magnifying = false;
     if (event.type == SDL_KEYUP && event.key.keysym.sym == SDLK_m) magnifying = false;
     if (event.type != SDL_KEYDOWN || (io.WantTextInput && event.key.keysym.sym != SDLK_ESCAPE)) return;
     const bool listOpen = dialog == Dialog::none && ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);

@@ -124,9 +124,9 @@ bool Interface::row(const std::string& label, bool changed, bool hasReset)
     ImGui::PopStyleColor();
     place("label." + label);
     if (changed) {
-        ImGui::GetWindowDrawList()->AddRectFilled(
-            ImVec2(corner.x - points(5.0f), corner.y + points(3.0f)),
-            ImVec2(corner.x - points(2.0f), corner.y + button - points(3.0f)), kOrange, points(1.5f));
+        ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(corner.x - points(5.0f), corner.y + points(3.0f)),
+                                                  ImVec2(corner.x - points(2.0f), corner.y + button - points(3.0f)),
+                                                  kOrange, points(1.5f));
     }
     const float column = left + points(116.0f);
     if (changed && hasReset) {
@@ -203,8 +203,8 @@ bool Interface::control(const Property& p, const Control& control, glm::vec4& va
             return changed;
         }
         case Kind::color: {
-            const ImGuiColorEditFlags how = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_AlphaPreviewHalf |
-                                            ImGuiColorEditFlags_NoInputs;
+            const ImGuiColorEditFlags how =
+                ImGuiColorEditFlags_Float | ImGuiColorEditFlags_AlphaPreviewHalf | ImGuiColorEditFlags_NoInputs;
             changed = p.components == 4 ? ImGui::ColorEdit4("##value", &value.x, how)
                                         : ImGui::ColorEdit3("##value", &value.x, how);
             ImGui::SameLine();
@@ -223,8 +223,8 @@ bool Interface::control(const Property& p, const Control& control, glm::vec4& va
                 ImGui::PushID(i);
                 const auto count = static_cast<float>(columns);
                 ImGui::SetNextItemWidth(std::floor((width - gap * (count - 1.0f)) / count));
-                changed = ImGui::DragFloat("##part", &value[i], (p.maximum - p.minimum) / 1000.0f, p.minimum,
-                                           p.maximum, "%.4g", ImGuiSliderFlags_AlwaysClamp) ||
+                changed = ImGui::DragFloat("##part", &value[i], (p.maximum - p.minimum) / 1000.0f, p.minimum, p.maximum,
+                                           "%.4g", ImGuiSliderFlags_AlwaysClamp) ||
                           changed;
                 place("property." + p.name + "." + std::to_string(i));
                 ImGui::PopID();

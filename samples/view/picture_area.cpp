@@ -58,9 +58,7 @@ void Interface::pictureArea()
     handlePicture(x, y, factor);
     if (viewer.canCompare() && !viewer.showsDifference()) drawComparison(x, y, width, height);
     if (viewer.kept) {
-        const auto at = [factor](float from, int pixel) {
-            return from + (static_cast<float>(pixel) + 0.5f) * factor;
-        };
+        const auto at = [factor](float from, int pixel) { return from + (static_cast<float>(pixel) + 0.5f) * factor; };
         const ImVec2 middle(at(x, viewer.kept->x), at(y, viewer.kept->y));
         ImDrawList& list = *ImGui::GetWindowDrawList();
         list.AddCircle(middle, points(6.0f), 0xff000000, 0, points(3.0f));
@@ -75,9 +73,9 @@ void Interface::handlePicture(float x, float y, float factor)
     const Pixels& shown = viewer.shown();
     const float width = static_cast<float>(shown.width) * factor, height = static_cast<float>(shown.height) * factor;
     ImGui::SetCursorScreenPos(ImVec2(x, y));
-    ImGui::InvisibleButton("picture", ImVec2(width, height),
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                               ImGuiButtonFlags_MouseButtonMiddle);
+    ImGui::InvisibleButton(
+        "picture", ImVec2(width, height),
+        ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
     const float line = x + static_cast<float>(viewer.dividerColumn()) * factor;
     const bool divided = viewer.canCompare() && !viewer.showsDifference();

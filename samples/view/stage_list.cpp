@@ -42,9 +42,8 @@ const std::vector<Listed>& listedStages()
 
 bool matches(const Listed& stage, const std::string& search)
 {
-    const std::string text =
-        lower(stage.source.id + " " + stage.title + " " + stage.news + " " + stage.source.stem + " " +
-              stage.source.tutorial);
+    const std::string text = lower(stage.source.id + " " + stage.title + " " + stage.news + " " + stage.source.stem +
+                                   " " + stage.source.tutorial);
     std::istringstream words(lower(search));
     for (std::string word; words >> word;) {
         if (text.find(word) == std::string::npos) return false;

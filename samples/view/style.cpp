@@ -87,16 +87,16 @@ Fonts loadFonts(float scale)
                           "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
                           "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"},
                          14.0f, scale);
-    fonts.title = firstOf({"/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
-                           "/usr/share/fonts/TTF/DejaVuSans-Bold.ttf",
-                           "/usr/share/fonts/truetype/liberation/LiberationSans-Bold.ttf",
-                           "/usr/share/fonts/truetype/noto/NotoSans-Bold.ttf"},
-                          17.0f, scale);
-    fonts.code = firstOf({"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
-                          "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
-                          "/usr/share/fonts/truetype/liberation/LiberationMono-Regular.ttf",
-                          "/usr/share/fonts/truetype/noto/NotoSansMono-Regular.ttf"},
-                         14.0f, scale);
+    fonts.title =
+        firstOf({"/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf", "/usr/share/fonts/TTF/DejaVuSans-Bold.ttf",
+                 "/usr/share/fonts/truetype/liberation/LiberationSans-Bold.ttf",
+                 "/usr/share/fonts/truetype/noto/NotoSans-Bold.ttf"},
+                17.0f, scale);
+    fonts.code =
+        firstOf({"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
+                 "/usr/share/fonts/truetype/liberation/LiberationMono-Regular.ttf",
+                 "/usr/share/fonts/truetype/noto/NotoSansMono-Regular.ttf"},
+                14.0f, scale);
     return fonts;
 }
 

@@ -13,7 +13,8 @@ namespace relief::samples {
 
 void Interface::toolbar()
 {
-    if (button(panelShown ? "Hide panel" : "Panel", "panel", "Shows and hides the panel (Tab)")) panelShown = !panelShown;
+    if (button(panelShown ? "Hide panel" : "Panel", "panel", "Shows and hides the panel (Tab)"))
+        panelShown = !panelShown;
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Beside");
@@ -80,7 +81,8 @@ void Interface::comparison()
         const Pixels& other = viewer.besidePicture();
         ImGui::AlignTextToFramePadding();
         if (other.empty()) {
-            ImGui::TextDisabled("Waiting for its picture ...");
+            ImGui::TextDisabled(viewer.besideHasProblem() ? "It gives no picture: look at it alone, to see why."
+                                                          : "Waiting for its picture ...");
             return;
         }
         ImGui::TextDisabled("The other picture has %dx%d pixels.", other.width, other.height);

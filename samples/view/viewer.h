@@ -87,6 +87,7 @@ public:
     Beside besideKind() const { return kind; }
     const std::string& besideName() const { return otherName; }
     const Pixels& besidePicture() const { return other; }
+    bool besideHasProblem() const { return second && second->problem() != nullptr; }
     void setDivider(float fraction);  // of the width, from the left
     void setDifference(bool shown);
     void setEnlargement(int factor);  // of the difference

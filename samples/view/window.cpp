@@ -79,6 +79,7 @@ Expected<void> Window::open(int width, int height, float scale)
     }
     if (window != nullptr) renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
     if (renderer != nullptr) {
+        if (scale <= 0.0f) itsScale = std::max(itsScale, pixelsPerPoint());
         SDL_SetWindowMinimumSize(window, 480, 320);
         return {};
     }

@@ -33,6 +33,7 @@ struct Hands
         auto opened = relief::samples::Application::open(options);
         REQUIRE_MESSAGE(opened, (opened ? "" : opened.error().message));
         application = std::move(*opened);
+        SDL_SetWindowSize(SDL_GetWindowFromID(1), 1280, 800);  // the dummy display is smaller
         REQUIRE(until([this] { return viewer().picture().width > 0; }));
         settle();
     }

@@ -38,7 +38,8 @@ TEST_CASE("view: the control that fits a property")
     CHECK(kind({"smoothness", glm::vec4(0.0f), 0.0f, 1.0f, 1, ""}) == Kind::number);
     CHECK(kind({"exact", glm::vec4(0.0f), 0.0f, 1.0f, 1, ""}) == Kind::tick);
     CHECK(kind({"weights", glm::vec4(0.0f), 0.0f, 9.0f, 1, "0: side by side; 1 to 9: one"}) == Kind::whole);
-    const Control choice = controlOf({"show", glm::vec4(0.0f), 0.0f, 2.0f, 1, "0: both, 1: GPU Gems 3, 2: the difference"});
+    const Control choice =
+        controlOf({"show", glm::vec4(0.0f), 0.0f, 2.0f, 1, "0: both, 1: GPU Gems 3, 2: the difference"});
     CHECK(choice.kind == Kind::choice);
     CHECK(choice.names == std::vector<std::string>{"both", "GPU Gems 3", "the difference"});
     CHECK(kind({"half", glm::vec4(0.0f), 0.0f, 2.0f, 1, "0: both, 1: one"}) == Kind::number);
