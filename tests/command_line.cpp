@@ -150,6 +150,21 @@ TEST_CASE("command line: render writes the picture of the size asked for")
     CHECK(fs::exists(folder.path / "06_rotated_tangent.png"));
 }
 
+TEST_CASE("command line: render --show draws a view, lists those of the stage, and refuses others")
+{
+    const TemporaryFolder folder;
+    const Outcome list = run(folder.path, "render 1.12 --show list");
+    CHECK(list.code == 0);
+    CHECK(list.out.find("TEXCOORD1  float3, from NORMAL\n") != std::string::npos);
+    CHECK(fs::is_empty(folder.path));
+    checkRefused(folder.path, "render 1.12 --show depht", {"--show depht", "depth, normal, uv, TEXCOORD0"});
+    CHECK(run(folder.path, "render 1.12 --size 64x36 -o plain.png").code == 0);
+    CHECK(run(folder.path, "render 1.12 --size 64x36 -o color.png --show color").code == 0);
+    CHECK(run(folder.path, "render 1.12 --size 64x36 -o depth.png --show depth").code == 0);
+    CHECK(contents(folder.path / "plain.png") == contents(folder.path / "color.png"));
+    CHECK(contents(folder.path / "plain.png") != contents(folder.path / "depth.png"));
+}
+
 TEST_CASE("command line: unknown stage, property, value and option")
 {
     const TemporaryFolder folder;

@@ -100,6 +100,10 @@ TEST_CASE("documents: the pages show the difference to the stage before as it is
         const Stage& before = allStages()[i - 1];
         const Stage& stage = allStages()[i];
         CAPTURE(stage.stem);
+        const bool begins = before.folder != stage.folder;
+        const std::string news =
+            begins ? pages::withoutMarks(source(stage)) : pages::marked(source(before), source(stage));
+        CHECK_MESSAGE(pages::sameMarks(source(stage), news), "run build/release/tests/update_pages");
         const std::string page = contents(kSource / "docs" / stage.folder / (stage.stem + ".md"));
         const auto updated = pages::withDifference(page, pages::difference(source(before), source(stage)));
         CHECK((updated.has_value() || before.folder != stage.folder || stage.folder == "basics"));
@@ -115,6 +119,19 @@ TEST_CASE("documents: a difference is the changed lines and two around them")
     const std::string before = "// head\na\nb\nc\nd\ne\nStage x()\n", after = "// other\na\nb\nC\nd\ne\nf\nStage y()\n";
     CHECK(pages::difference(before, after) == " a\n b\n-c\n+C\n d\n e\n+f\n");
     CHECK(pages::difference(before, before).empty());
+}
+
+TEST_CASE("documents: lines that are new in a stage's programs are marked")
+{
+    const std::string before = "namespace {\na\nb\nc\nd\n}  // namespace\nStage x()\n";
+    const std::string after = "namespace {\na\nB;\nb\n};\nc\n   // new\nd\n}  // namespace\nStage y()\n";
+    const std::string news = pages::marked(before, after);
+    CHECK(news == "namespace {\na\nB;  // new\nb\n};\nc\n\nd\n}  // namespace\nStage y()\n");
+    CHECK(pages::marked(before, news) == news);
+    CHECK(pages::sameMarks(news, "namespace {\na\nB;     // new\nb\n};\nc\n\nd\n}  // namespace\nStage y()\n"));
+    CHECK(!pages::sameMarks(news, after));
+    CHECK(pages::marked(before, "namespace {\nA\nB\nC\n") == "namespace {\nA\nB\nC\n");
+    CHECK(pages::difference(before, news) == pages::difference(before, pages::withoutMarks(news)));
 }
 
 TEST_CASE("documents: every relative link resolves")
@@ -145,7 +162,7 @@ TEST_CASE("documents: the lines that porting.md shows of a file stand in that fi
         const fs::path file = kSource / (*it)[1].str();
         CAPTURE(file);
         REQUIRE(fs::exists(file));
-        const std::string text = contents(file);
+        const std::string text = pages::withoutMarks(contents(file));
         std::stringstream lines((*it)[2].str());
         for (std::string line; std::getline(lines, line);) {
             CAPTURE(line);

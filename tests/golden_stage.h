@@ -26,8 +26,8 @@ inline Expected<Framebuffer> renderForGolden(const Stage& stage, Format format, 
 {
     // A golden is of one variant, whatever the CMake option BINORMAL_PER_FRAGMENT says.
     std::vector<std::string> settings;
-    for (const Property& p : stage.properties) {
-        if (p.name == "binormalPerFragment" && p.value.x < 2.0f) settings.push_back("binormalPerFragment=0");
+    for (const Property& p : stage.uniforms.properties) {
+        if (p.name == "binormalPerFragment" && p.choices.size() == 2) settings.push_back("binormalPerFragment=0");
     }
     const Expected<PreparedStage> prepared = PreparedStage::prepare(stage, settings);
     if (!prepared) return tl::unexpected(prepared.error());

@@ -241,13 +241,16 @@ TEST_CASE("leave out: S-1101 every set of pictures that are constants gives the 
         REQUIRE(stage.has_value());
         auto prepared = PreparedStage::prepare(**stage);
         REQUIRE(prepared.has_value());
-        LoadedInputs& inputs = *prepared->inputs;
+        const auto map = [&](TextureSlot slot) -> auto&
+        {
+            return prepared->inputs->textures[static_cast<std::size_t>(slot)];
+        };
         std::uint64_t without = 0;
         for (unsigned given = 0; given < 16; ++given) {
-            inputs.albedo = (given & 1) != 0 ? spread(Texture::white()) : nullptr;
-            inputs.detail = (given & 2) != 0 ? spread(Texture::grey()) : nullptr;
-            inputs.normal = (given & 4) != 0 ? spread(Texture::flatNormal()) : nullptr;
-            inputs.detailNormal = (given & 8) != 0 ? spread(Texture::flatNormal()) : nullptr;
+            map(TextureSlot::albedo) = (given & 1) != 0 ? spread(Texture::white()) : nullptr;
+            map(TextureSlot::detail) = (given & 2) != 0 ? spread(Texture::grey()) : nullptr;
+            map(TextureSlot::normal) = (given & 4) != 0 ? spread(Texture::flatNormal()) : nullptr;
+            map(TextureSlot::detailNormal) = (given & 8) != 0 ? spread(Texture::flatNormal()) : nullptr;
             Framebuffer target = makeTarget(96, 54, Format::rgba32f, Store::keep);
             Frame frame(target, {1, kDefaultTileSize});
             prepared->record(frame, 96, 54);

@@ -36,10 +36,10 @@ struct Drawing
 {
     explicit Drawing(const std::string& stage, const std::vector<std::string>& settings, bool bumps = false)
     {
-        const auto& inputs = (*findStage(stage))->inputs;
+        const auto& textures = (*findStage(stage))->uniforms.inputs.textures;
         InputFiles files;
         if (!bumps) files.normal = kNone;
-        if (!inputs.albedo.empty()) files.albedo = kNone;
+        if (!textures[static_cast<std::size_t>(TextureSlot::albedo)].file.empty()) files.albedo = kNone;
         Expected<PreparedStage> made = PreparedStage::prepare(**findStage(stage), settings, files);
         REQUIRE(made.has_value());
         prepared = std::move(*made);
@@ -94,14 +94,14 @@ std::string setting(const std::string& name, float value)
 }
 
 // The smallest and the largest red of a picture; no pixel may be anything but a number.
-struct Range
+struct Interval
 {
     float low = kInfinity, high = -kInfinity;
 };
-Range reds(const Picture& picture)
+Interval reds(const Picture& picture)
 {
     CHECK(picture.invalid == 0);
-    Range range;
+    Interval range;
     for (const glm::vec4& p : picture.pixels) {
         CHECK(std::isfinite(p.x));
         range = {std::min(range.low, p.x), std::max(range.high, p.x)};
@@ -256,7 +256,7 @@ TEST_CASE("phong: S-804 no stage's highlight is brighter than the light, whateve
                 for (std::size_t i = 0; i < lit.pixels.size(); ++i)
                     CHECK(lit.pixels[i].x - matte.pixels[i].x <= matte.pixels[i].x);  // N.L times at most 1
             } else {
-                const Range range = reds(drawing(257, 257));
+                const Interval range = reds(drawing(257, 257));
                 CHECK(range.low >= 0.0f);
                 CHECK(range.high <= 1.0f);
                 if (exponent <= 1000.0f) CHECK(range.high > 0.9f);
@@ -323,7 +323,7 @@ TEST_CASE("phong: S-813 the rim is within 0 to 1 for any power, seen head on and
             CAPTURE(power);
             // The sphere with its bumps; in 3.05 the lamp's pass adds a rim of its own.
             Drawing drawing(stage, rimOnly, true);
-            const Range range = reds(drawing.beyond("rimPower", power).beyond("lampStrength", 0.0f)(257, 257));
+            const Interval range = reds(drawing.beyond("rimPower", power).beyond("lampStrength", 0.0f)(257, 257));
             CHECK(range.low >= 0.0f);
             CHECK(range.high <= (std::string(stage) == "3.05" ? 2.0f : 1.0f));
             if (power <= 10.0f) CHECK(range.high > 0.01f);

@@ -70,10 +70,8 @@ struct Interpolators
     TEXCOORD<1, float3> worldNormal;
 };
 
-struct VertexProgram
+struct VertexProgram : Uniforms
 {
-    ObjectTransform object;
-
     Interpolators operator()(VertexData v) const
     {
         return {UnityObjectToClipPos(object, v.position), mul(object.worldFromObject, v.position).xyz(),
@@ -82,12 +80,8 @@ struct VertexProgram
 };
 
 template <class Method, bool always = false>
-struct FragmentProgram
+struct FragmentProgram : TriplanarMaterial
 {
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex, normalMap;
-
     // Where the stages leave out what has no weight, `always` samples it.
     static Triplanar<float4> sample(const sampler2D& s, const Triplanar<float2>& uv, const float3& weights)
     {
@@ -115,10 +109,7 @@ Picture withMethod(const std::string& mesh)
 {
     Stage stage = **findStage("4.05");
     stage.draw = [](const Scene& s) {
-        for (const Object& o : s.objects) {
-            s.draw(*o.mesh, VertexProgram{s.object(o.worldFromObject)},
-                   FragmentProgram<Method, always>{s.vector("ambient").xyz(), s.light, s.mainTex, s.normalMap});
-        }
+        for (const Object& o : s.objects) s.draw<VertexProgram, FragmentProgram<Method, always>>(o);
     };
     InputFiles files;
     files.mesh = mesh;
@@ -256,8 +247,9 @@ Framebuffer normalsOf(const Mesh& mesh)
     Frame frame(target, {1, kDefaultTileSize});
     frame.clear(glm::vec4(0.0f));
     const glm::mat4 clipFromWorld = {{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 1.0f, 1}, {0, 0, -0.1f, 0}};
-    frame.draw(mesh, VertexProgram{ObjectTransform(clipFromWorld, glm::mat4(1.0f))}, CotangentProgram(),
-               RenderState{.cull = Cull::none});
+    const Uniforms uniforms = {
+        .source = nullptr, .object = {clipFromWorld, glm::mat4(1.0f)}, .worldSpaceCameraPos = {}};
+    frame.draw(mesh, VertexProgram(uniforms), CotangentProgram(), RenderState{.cull = Cull::none});
     frame.run();
     return target;
 }

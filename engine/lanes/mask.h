@@ -46,7 +46,7 @@ inline bool none(Mask m)
 // knows.
 constexpr int countBits(unsigned bits)
 {
-    if constexpr (kLanes == 4) return static_cast<int>(0x4332322132212110u >> 4 * bits & 0xfu);
+    if constexpr (kLanes == 4) return static_cast<int>(0x4332322132212110u >> (4 * bits & 0x3fu) & 0xfu);
     return std::popcount(bits);
 }
 inline int count(Mask m)

@@ -194,7 +194,7 @@ template <class Fetch, class Modes>
     std::int32_t levels[kLanes];
     level.store(levels);
     float4 result(Float(0.0f));
-    for (unsigned waiting = wantedLanes(); waiting != 0;) {
+    for (unsigned waiting = wantedLanes() & kAllLanes; waiting != 0;) {
         const int k = levels[std::countr_zero(waiting)];
         const Mask here = level == k;
         const float4 colour = sampleLevels<Fetch>(place, k, fraction, here.bits() & waiting);

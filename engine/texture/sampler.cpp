@@ -117,11 +117,16 @@ inline void countSample(const sampler2D& s)
         shading.fetches.nearest += n;
 }
 
-inline void countLevels(const sampler2D& s, unsigned onFinest, unsigned onOneLevel)
+inline void countOneLevel(const sampler2D& s, unsigned onFinest, unsigned onOneLevel)
 {
-    if ((onOneLevel & shading.activeLanes) == 0) return;  // as mostly; the finest is one level, too
     shading.fetches.magnified += countOf(onFinest & shading.activeLanes);
     if (s.filter == Filter::trilinear) shading.fetches.secondLevelSkipped += countOf(onOneLevel & shading.activeLanes);
+}
+
+// Lanes of which one level is enough, with the bit kWatched where it is set: 0 in most blocks.
+inline unsigned lanesOnOneLevel(Int fixed)
+{
+    return shading.activeLanes & ~((fixed & (kLodOne - 1)) > 0).bits();
 }
 
 inline void countNoDerivatives()
@@ -132,7 +137,7 @@ inline void countNoDerivatives()
 inline void countFinest(const sampler2D& s)
 {
     countSample(s);
-    countLevels(s, kAllLanes, kAllLanes);
+    countOneLevel(s, kAllLanes, kAllLanes);
     if (isAnisotropic(s)) shading.fetches.taps += countOf(shading.activeLanes);
 }
 
@@ -193,15 +198,35 @@ inline int likelyLevel(const sampler2D& s, const Texture& texture, Float square)
     return std::clamp(level, 0, texture.levelCount() - 1);
 }
 
+// For an instrument: Shading::levels.
+inline void noteLevels(const sampler2D& s, Int fixed)
+{
+    const Int level = s.filter == Filter::trilinear ? fixed : (fixed + kLodOne / 2) & -kLodOne;
+    const Int before = Int::load(shading.levels);
+    select(Mask::fromBits(shading.activeLanes & kAllLanes), max(before, level), before).store(shading.levels);
+}
+
+// Where the instrument listens, the rest of a sample is a call, so that it takes no registers of the others.
+[[gnu::noinline, gnu::cold]] void sampleWatched(float4& result, const sampler2D& s, const Texture& texture, Float u,
+                                                Float v, Int fixed)
+{
+    noteLevels(s, fixed);
+    sampleMipChain(result, s, texture, u, v, fixed, 0);
+}
+
 // Ends in finest() where all lanes want level 0 alone, else in mipChain(lod, guess).
-template <class Finest, class MipChain>
+template <class Finest, class MipChain, class Watched>
 [[gnu::always_inline]] inline void sampleAtLevel(const sampler2D& s, const Texture& texture, Float lod, int guess,
-                                                 const Finest& finest, const MipChain& mipChain)
+                                                 const Finest& finest, const MipChain& mipChain, const Watched& watched)
 {
     const Int fixed = fixedLevel(s, texture, lod);
     const unsigned onFinest = (fixed == 0).bits();
     countSample(s);
-    countLevels(s, onFinest, ((fixed & (kLodOne - 1)) == 0).bits());
+    if (const unsigned onOneLevel = lanesOnOneLevel(fixed); onOneLevel != 0) {
+        if ((onOneLevel & kWatched) != 0) [[unlikely]]
+            return watched(fixed);
+        countOneLevel(s, onFinest, onOneLevel);
+    }
     if (isAnisotropic(s)) shading.fetches.taps += countOf(shading.activeLanes);  // tex2Dlod
     if (leavesOut::coarserLevel && (wantedLanes() & ~onFinest) == 0) return finest();
     return mipChain(fixed, guess);
@@ -209,9 +234,10 @@ template <class Finest, class MipChain>
 
 // The same, with the level that the coordinate's change asks for. `bias` is without the sampler's own, a float or one
 // per lane.
-template <class Bias, class Finest, class MipChain>
+template <class Bias, class Finest, class MipChain, class Watched>
 [[gnu::always_inline]] inline void sampleIsotropic(const sampler2D& s, const Texture& texture, const Gradients& change,
-                                                   Bias bias, const Finest& finest, const MipChain& mipChain)
+                                                   Bias bias, const Finest& finest, const MipChain& mipChain,
+                                                   const Watched& watched)
 {
     const Float square = longestSquare(toTexels(texture, change.dx), toTexels(texture, change.dy));
     const Bias wholeBias = limitBias(s, bias);
@@ -220,7 +246,7 @@ template <class Bias, class Finest, class MipChain>
         return finest();
     }
     return sampleAtLevel(s, texture, limitedIsotropicLevel(square) + wholeBias, likelyLevel(s, texture, square), finest,
-                         mipChain);
+                         mipChain, watched);
 }
 
 // --- the kinds of sample ---
@@ -229,7 +255,7 @@ template <class Bias, class Finest, class MipChain>
 [[gnu::noinline]] void sampleConstant(float4& result, const sampler2D& s, const Texture& texture)
 {
     countSample(s);
-    countLevels(s, kAllLanes, kAllLanes);
+    countOneLevel(s, kAllLanes, kAllLanes);
     countNoDerivatives();
     shading.fetches.constant += countOf(shading.activeLanes);
     result = broadcast(texture.constant());
@@ -262,7 +288,8 @@ template <class Fetch, class Modes>
     {
         result = Fetch::toUnit(sampleMipLevels<Fetch>(Place<Modes>(s, texture, u, v), lod, guess));
     };
-    sampleIsotropic(s, texture, gradientsOf(u, v), 0.0f, finest, mipChain);
+    const auto watched = [&](Int fixed) { sampleWatched(result, s, texture, u, v, fixed); };
+    sampleIsotropic(s, texture, gradientsOf(u, v), 0.0f, finest, mipChain, watched);
 }
 
 // The average of the taps, which lie evenly on the footprint's axis: tap i of n at (2 i + 1 - n) / 2n of it. It is kept
@@ -281,7 +308,9 @@ template <class Fetch, class Modes>
     const AnisotropicFootprint footprint = anisotropicFootprint(dX, dY, limit);
     const Int fixed = fixedLevel(s, texture, footprint.lod + wholeBias);
     countSample(s);
-    countLevels(s, (fixed == 0).bits(), ((fixed & (kLodOne - 1)) == 0).bits());
+    if ((shading.activeLanes & kWatched) != 0) noteLevels(s, fixed);
+    if (const unsigned onOneLevel = lanesOnOneLevel(fixed); onOneLevel != 0)
+        countOneLevel(s, (fixed == 0).bits(), onOneLevel);
     const glm::vec4& size = texture.texelSize();
     const float2 axis = {footprint.axis.x * size.x, footprint.axis.y * size.y};
     const Float perTap = 0.5f / footprint.taps;
@@ -322,7 +351,8 @@ void sampleBy(TakeGradients gradients, Bias bias, float4& result, const sampler2
     if (isAnisotropic(s)) return sampleAnisotropic(result, s, texture, u, v, change, bias);
     const auto finest = [&] { sampleFinest(result, s, texture, u, v); };
     const auto mipChain = [&](Int lod, int guess) { sampleMipChain(result, s, texture, u, v, lod, guess); };
-    sampleIsotropic(s, texture, change, bias, finest, mipChain);
+    const auto watched = [&](Int fixed) { sampleWatched(result, s, texture, u, v, fixed); };
+    sampleIsotropic(s, texture, change, bias, finest, mipChain, watched);
 }
 
 // No texture is white.
@@ -380,7 +410,8 @@ void sampleLod(float4& result, const sampler2D& s, Float u, Float v, Float lod)
     countNoDerivatives();
     const auto finest = [&] { sampleFinest(result, s, texture, u, v); };
     const auto mipChain = [&](Int fixed, int guess) { sampleMipChain(result, s, texture, u, v, fixed, guess); };
-    sampleAtLevel(s, texture, lod + limitBias(s, 0.0f), 0, finest, mipChain);
+    const auto watched = [&](Int fixed) { sampleWatched(result, s, texture, u, v, fixed); };
+    sampleAtLevel(s, texture, lod + limitBias(s, 0.0f), 0, finest, mipChain, watched);
 }
 
 }  // namespace detail
@@ -388,7 +419,7 @@ void sampleLod(float4& result, const sampler2D& s, Float u, Float v, Float lod)
 float4 tex2DWhere(Mask needed, const sampler2D& s, const float2& uv)
 {
     const unsigned outside = shading.activeLanes;
-    if (leavesOut::planes) shading.activeLanes = outside & needed.bits();
+    if (leavesOut::planes) shading.activeLanes = outside & (native::maskBits(needed.value) | kWatched);
     float4 color(0.0f);
     if (shading.activeLanes != 0) color = select(needed, tex2D(s, uv), color);
     shading.activeLanes = outside;

@@ -2,6 +2,8 @@
 // for every block; texture fetches look at it. Each thread has one.
 #pragma once
 
+#include <cstdint>
+
 #include "lanes/mask.h"
 #include "texture/fetch_counters.h"
 
@@ -14,7 +16,15 @@ struct Shading
     unsigned activeLanes = kAllLanes;
 
     FetchCounters fetches;
+
+    // Of each lane the coarsest mip level that was sampled, in 1/256 of a level: for pipeline/inspect.cpp, which sets
+    // it and kWatched in activeLanes. That bit is no lane. It makes every shortcut of a sample fail its test of the
+    // lanes, so that the long way alone has to ask for it, and a frame that nobody watches runs not one instruction
+    // more.
+    std::int32_t* levels = nullptr;
 };
+
+inline constexpr unsigned kWatched = 1u << 31;
 
 inline constinit thread_local Shading shading;
 

@@ -62,6 +62,15 @@ void addCompilerOption(CLI::App& command, std::string& compiler)
         ->check(CLI::IsMember({"g++", "clang++"}));
 }
 
+void addShowOption(CLI::App& command, std::string& show)
+{
+    command
+        .add_option("--show", show,
+                    "What lies behind the picture, with a scale: depth, normal, mip, overdraw, TEXCOORD0.x ...; `list` "
+                    "prints what the stage has")
+        ->type_name("VIEW");
+}
+
 void addInputOptions(CLI::App& command, RenderOptions& options)
 {
     command
@@ -265,6 +274,7 @@ int runProgram(int argc, char** argv, const Program& program)
     addInputOptions(*command, options);
     command->add_option("-o,--output", output, "The file; default: the stage's name")->type_name("FILE.png");
     bool watch = false;
+    addShowOption(*command, options.show);
     command->add_flag("--watch", watch, "Writes the picture again whenever the stage's file is saved");
     addCompilerOption(*command, options.compiler);
     command->callback([&] { run("render", watch ? program.renderAtEverySave : program.render, options, output); });
@@ -284,6 +294,7 @@ int runProgram(int argc, char** argv, const Program& program)
     command = app.add_subcommand("view", "Shows a stage in a window, and again whenever its file is saved");
     ViewOptions viewOptions;
     addInputOptions(*command, viewOptions.render);
+    addShowOption(*command, viewOptions.render.show);
     addCompilerOption(*command, viewOptions.render.compiler);
     command->add_option("--frames", viewOptions.frames, "Close after this many frames; 0: when the user does")
         ->check(CLI::Range(0, 1000000));

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/inside.h"
 #include "pipeline/instruments.h"
 
 namespace relief::samples {
@@ -26,7 +27,7 @@ nlohmann::json describe(const Property& p)
 nlohmann::json describe(const Stage& stage)
 {
     nlohmann::json properties = nlohmann::json::array();
-    for (const Property& p : stage.properties) properties.push_back(describe(p));
+    for (const Property& p : stage.uniforms.properties) properties.push_back(describe(p));
     return {{"id", stage.id},           {"stem", stage.stem},      {"title", stage.title}, {"tutorial", stage.tutorial},
             {"section", stage.section}, {"properties", properties}};
 }
@@ -50,18 +51,36 @@ Expected<void> list(bool json)
     return {};
 }
 
-Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path)
+Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path,
+                                  const std::string& show)
 {
     Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = threads});
     stage.record(frame, size.width, size.height);
-    const Statistics statistics = frame.run();
-    if (!frame.problem().empty()) return fail(frame.problem());
+    if (const std::string problem = stage.problem(frame); !problem.empty()) return fail(problem);
+    const Expected<Statistics> statistics = runInside(frame, *target, show);
+    if (!statistics) return fail("--show " + show + ": " + statistics.error().message);
     const Expected<void> written = writePng(path, *target);
     if (!written) return tl::unexpected(written.error());
     return statistics;
 }
+
+namespace {
+
+// What `render --show list` prints.
+Expected<void> listViews(const PreparedStage& stage, Size size)
+{
+    Expected<Framebuffer> target = Framebuffer::create(16, 16);
+    if (!target) return tl::unexpected(target.error());
+    Frame frame(*target, {.threads = 1});
+    stage.record(frame, size.width, size.height);
+    if (const std::string problem = stage.problem(frame); !problem.empty()) return fail(problem);
+    for (const View& view : viewsOf(frame)) std::printf("%-10s %s\n", view.name.c_str(), view.meaning.c_str());
+    return {};
+}
+
+}  // namespace
 
 Expected<void> render(const RenderOptions& options, const std::string& output)
 {
@@ -69,8 +88,9 @@ Expected<void> render(const RenderOptions& options, const std::string& output)
     if (!size) return tl::unexpected(size.error());
     const Expected<PreparedStage> prepared = prepare(options);
     if (!prepared) return tl::unexpected(prepared.error());
+    if (options.show == "list") return listViews(*prepared, *size);
     const std::string path = output.empty() ? prepared->stage->stem + ".png" : output;
-    const Expected<Statistics> done = renderToFile(*prepared, *size, options.threads, path);
+    const Expected<Statistics> done = renderToFile(*prepared, *size, options.threads, path, options.show);
     if (!done) return tl::unexpected(done.error());
     std::printf("%s\n", path.c_str());
     return {};
@@ -98,7 +118,7 @@ Expected<void> signature(const RenderOptions& options, const std::string& binorm
     const bool perFragment = binormal.empty() ? kBinormalPerFragment : binormal == "fragment";
     const Expected<const Stage*> stage = stageOf(options.stage);
     if (!stage) return tl::unexpected(stage.error());
-    const std::vector<Property>& all = (*stage)->properties;
+    const std::vector<Property>& all = (*stage)->uniforms.properties;
     const bool hasVariants =
         std::any_of(all.begin(), all.end(), [](const Property& p) { return p.name == "binormalPerFragment"; });
     if (!binormal.empty() && !hasVariants) {

@@ -17,7 +17,8 @@ Expected<void> explain(const RenderOptions& options, bool json);
 Expected<void> gallery(const std::string& folder, int threads);
 Expected<void> view(const ViewOptions& options);
 
-// Renders into 8-bit sRGB colours and writes a PNG.
-Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path);
+// Renders into 8-bit sRGB colours, the picture or one of its views (common/inside.h), and writes a PNG.
+Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path,
+                                  const std::string& show = "");
 
 }  // namespace relief::samples

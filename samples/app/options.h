@@ -19,6 +19,7 @@ struct RenderOptions
     std::string camera;  // as parseCamera() takes it; empty: the stage's
     bool showTangents = false;
     float tangentScale = 0.1f, tangentOffset = 0.01f;
+    std::string show;      // of `render` and `view`: a view (common/inside.h); empty: the picture
     std::string compiler;  // of live stages: "g++" or "clang++"; empty: the fastest
 };
 

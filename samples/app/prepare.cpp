@@ -109,7 +109,8 @@ Expected<live::Look> lookOf(const RenderOptions& options)
                     .threads = options.threads,
                     .showTangents = options.showTangents,
                     .tangentScale = options.tangentScale,
-                    .tangentOffset = options.tangentOffset};
+                    .tangentOffset = options.tangentOffset,
+                    .show = options.show};
     if (options.camera.empty()) return look;
     const Expected<Camera> camera = parseCamera(options.camera);
     if (!camera) return tl::unexpected(camera.error());

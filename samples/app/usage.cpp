@@ -11,7 +11,7 @@ namespace {
 void countLevels(const LoadedInputs& inputs, const SceneLog& log, Usage& usage)
 {
     std::set<const Texture*> textures = log.textures;
-    for (const auto& texture : {inputs.albedo, inputs.height, inputs.normal, inputs.detail, inputs.detailNormal}) {
+    for (const auto& texture : inputs.textures) {
         if (texture) textures.insert(texture.get());
     }
     for (const Texture* texture : textures) {

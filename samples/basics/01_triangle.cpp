@@ -4,25 +4,20 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> color;
 };
 
-struct MyVertexProgram
-{
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = v.position;
         i.color = v.normal;
@@ -30,16 +25,14 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
+struct MyFragmentProgram : Uniforms {
+    float4 tint = rgba("tint", glm::vec4(1.0f), "colour that everything is multiplied by");
 
     float4 operator()(Interpolators i) const { return float4(i.color * tint.xyz(), 1); }
 };
 
 // Positions are in clip space already; the normals carry the three colours.
-const Mesh& triangle()
-{
+const Mesh& triangle() {
     static const Mesh mesh = {.name = "triangle",
                               .positions = {{-0.5f, -0.75f, 0.5f}, {0.0f, 0.75f, 0.5f}, {0.5f, -0.75f, 0.5f}},
                               .normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -51,15 +44,12 @@ const Mesh& triangle()
 
 }  // namespace
 
-Stage basics_01_triangle()
-{
+Stage basics_01_triangle() {
     return {.title = "Triangle",
             .section = "part 1",
             .news = "Three vertices, three colours: the smallest picture there is.",
-            .properties = {{"tint", glm::vec4(1.0f), 0.0f, 1.0f, 4, "colour that everything is multiplied by"}},
-            .inputs = {},
-            .camera = {},
-            .draw = [](const Scene& s) { s.draw(triangle(), MyVertexProgram{}, MyFragmentProgram{s.vector("tint")}); }};
+            .uniforms = declared<MyFragmentProgram>(),
+            .draw = [](const Scene& s) { s.draw<MyVertexProgram, MyFragmentProgram>({&triangle()}); }};
 }
 
 }  // namespace relief::samples

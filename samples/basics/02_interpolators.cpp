@@ -4,28 +4,21 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float2> uv;
     noperspective<TEXCOORD<1, float2>> affineUV;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.uv = v.uv;
@@ -34,13 +27,11 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    Float squares;
-    bool affine;
+struct MyFragmentProgram : Uniforms {
+    Float squares = number("squares", 8.0f, {1, 64}, "squares of the board along a side");
+    bool affine = false;
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         const float2 uv = affine ? float2(i.affineUV) : float2(i.uv);
 
         // A chessboard: the parity of the square's column and row.
@@ -50,26 +41,31 @@ struct MyFragmentProgram
     }
 };
 
+struct Quads : Uniforms {
+    float lean = number("lean", 60.0f, {0, 89}, "how far the quads lean back, degrees");
+};
+
 }  // namespace
 
-Stage basics_02_interpolators()
-{
+Stage basics_02_interpolators() {
     return {.title = "Interpolators",
             .section = "part 2",
             .news =
                 "Left: perspective-correct. Right: affine, as if the screen were the surface; it breaks along the "
                 "diagonal.",
-            .properties = {{"squares", glm::vec4(8.0f), 1.0f, 64.0f, 1, "squares of the board along a side"},
-                           {"lean", glm::vec4(60.0f), 0.0f, 89.0f, 1, "how far the quads lean back, degrees"}},
-            .inputs = {.mesh = "quad", .albedo = "", .height = "", .normal = "", .detail = ""},
+            .uniforms = declared<MyFragmentProgram, Quads>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.35f, -2.1f}, .target = {0.0f, -0.03f, 0.0f}},
             .draw = [](const Scene& s) {
-                const glm::mat4 lean = rotationX(s.number("lean")[0]);
-                const Float squares = s.number("squares");
-                s.draw(s.mesh, MyVertexProgram{s.object(translation({-0.56f, 0, 0}) * lean)},
-                       MyFragmentProgram{squares, false});
-                s.draw(s.mesh, MyVertexProgram{s.object(translation({0.56f, 0, 0}) * lean)},
-                       MyFragmentProgram{squares, true});
+                const glm::mat4 lean = rotationX(Quads(s.uniforms()).lean);
+                const auto draw = [&](float x, bool affine) {
+                    const Uniforms uniforms = s.uniforms(translation({x, 0, 0}) * lean);
+                    MyFragmentProgram fragment = uniforms;
+                    fragment.affine = affine;
+                    s.draw(s.mesh, MyVertexProgram(uniforms), fragment);
+                };
+                draw(-0.56f, false);
+                draw(0.56f, true);
             }};
 }
 

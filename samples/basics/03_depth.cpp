@@ -4,71 +4,65 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         return i;
     }
 };
 
-struct ShowColor
-{
+struct ShowColor {
     float3 color;
 
     float4 operator()(Interpolators) const { return float4(color, 1); }
 };
 
 // What the depth buffer holds, z / w: 0 at the near plane, 1 at the far plane, and most of the way near 1.
-struct ShowDepth
-{
+struct ShowDepth {
     float4 operator()(Interpolators i) const { return float4(float3(i.position.z), 1); }
 };
 
 // 1 / w, the reciprocal of the distance along the view: linear on the screen, which is why interpolation uses it.
-struct ShowInverseW
-{
+struct ShowInverseW {
     float4 operator()(Interpolators i) const { return float4(float3(1.0f / i.position.w), 1); }
 };
 
 constexpr RenderState kBothSides = {.cull = Cull::none};
 
+struct Quads : Uniforms {
+    float turn = number("turn", 50.0f, {0, 90}, "how far one quad is turned about Y, degrees");
+    float lean = number("lean", 50.0f, {0, 90}, "how far the other one leans back, degrees");
+};
+
 }  // namespace
 
-Stage basics_03_depth()
-{
+Stage basics_03_depth() {
     return {.title = "Depth",
             .section = "part 3",
             .news = "Two quads pass through each other; from left to right: colour, the depth buffer's z, and 1/w.",
-            .properties = {{"turn", glm::vec4(50.0f), 0.0f, 90.0f, 1, "how far one quad is turned about Y, degrees"},
-                           {"lean", glm::vec4(50.0f), 0.0f, 90.0f, 1, "how far the other one leans back, degrees"}},
-            .inputs = {.mesh = "quad", .albedo = "", .height = "", .normal = "", .detail = ""},
+            .uniforms = declared<Quads>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.25f, -1.55f}, .nearPlane = 1.0f, .farPlane = 3.0f},
             .draw = [](const Scene& s) {
-                const glm::mat4 turned[] = {rotationY(s.number("turn")[0]), rotationX(s.number("lean")[0])};
+                const Quads quads = s.uniforms();
+                const glm::mat4 turned[] = {rotationY(quads.turn), rotationX(quads.lean)};
                 const float3 colors[] = {{0.9f, 0.45f, 0.1f}, {0.1f, 0.35f, 0.8f}};
                 for (int k = 0; k < 2; ++k) {
                     for (int view = 0; view < 3; ++view) {
                         // One camera for all three views, each in its third of the picture.
                         s.cutCell(view, 3);
-                        const MyVertexProgram vertex{s.object(turned[k] * scaling(glm::vec3(0.54f)))};
+                        const MyVertexProgram vertex = s.uniforms(turned[k] * scaling(glm::vec3(0.54f)));
                         if (view == 0) s.draw(s.mesh, vertex, ShowColor{colors[k]}, kBothSides);
                         if (view == 1) s.draw(s.mesh, vertex, ShowDepth{}, kBothSides);
                         if (view == 2) s.draw(s.mesh, vertex, ShowInverseW{}, kBothSides);

@@ -4,40 +4,45 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
 template <bool VERTEXLIGHT_ON>
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
 template <>
-struct Interpolators<true>
-{
+struct Interpolators<true> {
     SV_POSITION position;
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
     TEXCOORD<3, float3> vertexLightColor;
 };
 
-template <bool VERTEXLIGHT_ON>
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    VertexLights vertexLights;
+// A red and a green lamp of range 1.5; the other two of the four are black.
+VertexLights twoLamps(Float strength) {
+    const float attenSq = 25.0f / (1.5f * 1.5f);
+    return {.positionX = {0.0f, 1.5f, 0.0f, 0.0f},
+            .positionY = {0.4f, 0.0f, 0.0f, 0.0f},
+            .positionZ = {-0.6f, -0.5f, 0.0f, 0.0f},
+            .attenSq = float4(Float(attenSq)),
+            .color = {float3(1.0f, 0.15f, 0.1f) * strength, float3(0.1f, 1.0f, 0.2f) * strength, float3(Float(0.0f)),
+                      float3(Float(0.0f))}};
+}
 
-    Interpolators<VERTEXLIGHT_ON> operator()(VertexData v) const
-    {
+template <bool VERTEXLIGHT_ON>
+struct MyVertexProgram : Uniforms {
+    VertexLights vertexLights =
+        twoLamps(number("vertexLights", 1.5f, {0, 8}, "strength of the red and green lamp; per vertex"));
+
+    Interpolators<VERTEXLIGHT_ON> operator()(VertexData v) const {
         Interpolators<VERTEXLIGHT_ON> i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -47,18 +52,20 @@ struct MyVertexProgram
     }
 };
 
+// The sky's blue above, and what the ground gives back below.
+SphericalHarmonics surroundings(float strength) {
+    const glm::vec3 sky(0.1f, 0.13f, 0.2f), equator(0.05f), ground(0.02f);
+    return gradientSurroundings(sky * strength, equator * strength, ground * strength);
+}
+
 // The base pass has the vertex lights and the surroundings besides its own light.
 template <class Light, bool basePass>
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    Light source;
-    SphericalHarmonics ambient;
+struct MyFragmentProgram : LitMaterial {
+    float ambientStrength = number("ambient", 1.0f, {0, 8}, "strength of the surroundings; spherical harmonics");
+    SphericalHarmonics ambient = surroundings(ambientStrength);
+    Light source = {};
 
-    float4 operator()(Interpolators<basePass> i) const
-    {
+    float4 operator()(Interpolators<basePass> i) const {
         i.normal = normalize(i.normal);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -67,8 +74,8 @@ struct MyFragmentProgram
         Float oneMinusReflectivity;
         albedo = DiffuseAndSpecularFromMetallic(albedo, metallic, specularTint, oneMinusReflectivity);
 
-        const UnityLight light = CreateLight(source, i.worldPos);
-        float4 color = UNITY_BRDF_PBS(albedo, specularTint, smoothness, i.normal, viewDir, light);
+        float4 color =
+            UNITY_BRDF_PBS(albedo, specularTint, smoothness, i.normal, viewDir, CreateLight(source, i.worldPos));
         if constexpr (basePass) {
             color += float4(albedo * (i.vertexLightColor + ShadeSH9(ambient, i.normal)), 0);
         }
@@ -80,49 +87,35 @@ struct MyFragmentProgram
 constexpr RenderState kBasePass = {};
 constexpr RenderState kAdditivePass = {.depthTest = Compare::equal, .depthWrite = false, .blend = Blend::additive};
 
-// A red and a green lamp of range 1.5; the other two of the four are black.
-VertexLights twoLamps(Float strength)
-{
-    const float attenSq = 25.0f / (1.5f * 1.5f);
-    return {.positionX = {0.0f, 1.5f, 0.0f, 0.0f},
-            .positionY = {0.4f, 0.0f, 0.0f, 0.0f},
-            .positionZ = {-0.6f, -0.5f, 0.0f, 0.0f},
-            .attenSq = float4(Float(attenSq)),
-            .color = {float3(1.0f, 0.15f, 0.1f) * strength, float3(0.1f, 1.0f, 0.2f) * strength, float3(Float(0.0f)),
-                      float3(Float(0.0f))}};
-}
+struct Lights : Uniforms {
+    UnityLight light = Uniforms::sun(35.0f, -20.0f);
+    Float sun = number("sun", 0.25f, {0, 8}, "strength of the directional light; base pass");
+    Float lamp = number("lamp", 8.0f, {0, 64}, "strength of the blue point light; additive pass");
+    Float spot = number("spot", 12.0f, {0, 64}, "strength of the yellow spot light; additive pass");
+};
 
 template <bool basePass, class Light>
-void drawPass(const Scene& s, const Object& o, const Light& light)
-{
-    const float ambient = s.number("ambient")[0];
-    const glm::vec3 sky(0.1f, 0.13f, 0.2f), equator(0.05f), ground(0.02f);
-    s.draw(*o.mesh, MyVertexProgram<basePass>{s.object(o.worldFromObject), twoLamps(s.number("vertexLights"))},
-           MyFragmentProgram<Light, basePass>{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                              s.worldSpaceCameraPos, light,
-                                              gradientSurroundings(sky * ambient, equator * ambient, ground * ambient)},
-           basePass ? kBasePass : kAdditivePass);
+void drawPass(const Scene& s, const Object& o, const Light& light) {
+    const MyVertexProgram<basePass> vertex = s.uniforms(o.worldFromObject);
+    MyFragmentProgram<Light, basePass> fragment = s.uniforms(o.worldFromObject);
+    fragment.source = light;
+    s.draw(*o.mesh, vertex, fragment, basePass ? kBasePass : kAdditivePass);
 }
 
 }  // namespace
 
-Stage basics_07_multiple_lights()
-{
+Stage basics_07_multiple_lights() {
     return {.title = "Multiple lights",
             .section = "part 5",
             .news = "A sun, a lamp, a spot, two lamps per vertex and the sky: one base pass, and additive passes.",
-            .properties = litProperties(
-                {{"sun", glm::vec4(0.25f), 0.0f, 8.0f, 1, "strength of the directional light; base pass"},
-                 {"lamp", glm::vec4(8.0f), 0.0f, 64.0f, 1, "strength of the blue point light; additive pass"},
-                 {"spot", glm::vec4(12.0f), 0.0f, 64.0f, 1, "strength of the yellow spot light; additive pass"},
-                 {"vertexLights", glm::vec4(1.5f), 0.0f, 8.0f, 1, "strength of the red and green lamp; per vertex"},
-                 {"ambient", glm::vec4(1.0f), 0.0f, 8.0f, 1, "strength of the surroundings; spherical harmonics"}}),
-            .inputs = {.mesh = "cube+sphere+quad"},
+            .uniforms = declared<MyFragmentProgram<PointLight, true>, Lights, MyVertexProgram<true>>(),
+            .mesh = "cube+sphere+quad",
             .camera = {.position = {0.0f, 1.1f, -2.7f}, .target = {0.0f, -0.1f, 0.0f}},
             .draw = [](const Scene& s) {
-                const DirectionalLight sun = {s.light.color * s.number("sun"), s.light.dir};
-                const PointLight lamp = {float3(0.2f, 0.45f, 1.0f) * s.number("lamp"), {-1.3f, 0.6f, -0.9f}, 1.2f};
-                const SpotLight spot = {float3(1.0f, 0.8f, 0.3f) * s.number("spot"),
+                const Lights lights = s.uniforms();
+                const DirectionalLight sun = {lights.light.color * lights.sun, lights.light.dir};
+                const PointLight lamp = {float3(0.2f, 0.45f, 1.0f) * lights.lamp, {-1.3f, 0.6f, -0.9f}, 1.2f};
+                const SpotLight spot = {float3(1.0f, 0.8f, 0.3f) * lights.spot,
                                         {1.5f, 1.6f, -0.8f},
                                         3.5f,
                                         normalize(float3(-0.48f, -0.78f, 0.4f)),

@@ -4,31 +4,23 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float2> uv;
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : LitMaterial {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -38,16 +30,8 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex;
-
-    float4 operator()(Interpolators i) const
-    {
+struct MyFragmentProgram : LitMaterial {
+    float4 operator()(Interpolators i) const {
         i.normal = normalize(i.normal);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -62,19 +46,14 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_01_flat_quad()
-{
+Stage bumpiness_01_flat_quad() {
     return {.title = "Flat quad",
             .section = "1",
             .news = "One quad, four equal normals: whatever the light, it looks flat.",
-            .properties = litProperties(),
-            .inputs = {.mesh = "quad", .albedo = kNone, .height = ""},
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
-            .draw = [](const Scene& s) {
-                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                         s.worldSpaceCameraPos, s.light, s.mainTex});
-            }};
+            .draw = [](const Scene& s) { s.draw<MyVertexProgram, MyFragmentProgram>(s.lying()); }};
 }
 
 }  // namespace relief::samples

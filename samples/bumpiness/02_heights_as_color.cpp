@@ -4,31 +4,23 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float2> uv;
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : LitMaterial {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -38,22 +30,15 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex;
-    sampler2D heightMap;
+struct MyFragmentProgram : LitMaterial {
+    sampler2D heightMap = heights("marble-heights.png");  // new
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         i.normal = normalize(i.normal);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
         float3 albedo = tex2D(mainTex, i.uv).xyz() * tint.xyz();
-        albedo *= tex2D(heightMap, i.uv).xyz();
+        albedo *= tex2D(heightMap, i.uv).xyz();  // new
         float3 specularTint;
         Float oneMinusReflectivity;
         albedo = DiffuseAndSpecularFromMetallic(albedo, metallic, specularTint, oneMinusReflectivity);
@@ -64,19 +49,14 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_02_heights_as_color()
-{
+Stage bumpiness_02_heights_as_color() {
     return {.title = "Heights as color",
             .section = "1.1",
             .news = "The height map, seen as a colour: black cracks are at height 0.",
-            .properties = litProperties(),
-            .inputs = {.mesh = "quad", .albedo = kNone, .height = "marble-heights.png"},
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
-            .draw = [](const Scene& s) {
-                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap});
-            }};
+            .draw = [](const Scene& s) { s.draw<MyVertexProgram, MyFragmentProgram>(s.lying()); }};
 }
 
 }  // namespace relief::samples

@@ -4,31 +4,23 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float2> uv;
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : LitMaterial {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -38,25 +30,17 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex;
-    sampler2D heightMap;
+struct MyFragmentProgram : LitMaterial {
+    sampler2D heightMap = heights("marble-heights.png");
 
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
-        const Float h = tex2D(heightMap, i.uv).x;
-        i.normal = float3(0, h, 0);
+    void InitializeFragmentNormal(Interpolators& i) const {  // new
+        const Float h = tex2D(heightMap, i.uv).x;            // new
+        i.normal = float3(0, h, 0);                          // new
         i.normal = normalize(i.normal);
     }
 
-    float4 operator()(Interpolators i) const
-    {
-        InitializeFragmentNormal(i);
+    float4 operator()(Interpolators i) const {  // new
+        InitializeFragmentNormal(i);            // new
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
         float3 albedo = tex2D(mainTex, i.uv).xyz() * tint.xyz();
@@ -70,19 +54,14 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_03_heights_as_normals()
-{
+Stage bumpiness_03_heights_as_normals() {
     return {.title = "Heights as normals",
             .section = "1.2",
             .news = "Wrong on purpose: (0, h, 0) normalised is (0, 1, 0) again, and black where h is 0.",
-            .properties = litProperties(),
-            .inputs = {.mesh = "quad", .albedo = kNone, .height = "marble-heights.png"},
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
-            .draw = [](const Scene& s) {
-                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.heightMap});
-            }};
+            .draw = [](const Scene& s) { s.draw<MyVertexProgram, MyFragmentProgram>(s.lying()); }};
 }
 
 }  // namespace relief::samples

@@ -4,31 +4,23 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float2> uv;
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : LitMaterial {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -38,28 +30,20 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex;
-    sampler2D heightMap;
-    float4 heightMap_TexelSize;
-    Float bumpScale;
+struct MyFragmentProgram : LitMaterial {
+    sampler2D heightMap = heights("marble-heights.png");
+    float4 heightMap_TexelSize = texelSize(heightMap);
+    Float bumpScale = number("bumpScale", 5.0f, {-32, 32}, "texels that the height map's whole range is high");  // new
 
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
+    void InitializeFragmentNormal(Interpolators& i) const {
         const float2 delta = float2(heightMap_TexelSize.x, 0);
         const Float h1 = tex2D(heightMap, i.uv).x;
         const Float h2 = tex2D(heightMap, i.uv + delta).x;
-        i.normal = float3(1, (h2 - h1) * bumpScale, 0);
+        i.normal = float3(1, (h2 - h1) * bumpScale, 0);  // new
         i.normal = normalize(i.normal);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -74,21 +58,15 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_05_scaled_heights()
-{
+Stage bumpiness_05_scaled_heights() {
     return {
         .title = "Scaled heights",
         .section = "1.4",
         .news = "Wrong on purpose: slopes of a sensible size, but still a tangent: lit as if the floor were a wall.",
-        .properties = litProperties({bumpScaleProperty()}),
-        .inputs = {.mesh = "quad", .albedo = kNone, .height = "marble-heights.png"},
+        .uniforms = declared<MyFragmentProgram>(),
+        .mesh = "quad",
         .camera = {.position = {0.0f, 0.9f, -0.75f}},
-        .draw = [](const Scene& s) {
-            s.draw(
-                s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos,
-                                  s.light, s.mainTex, s.heightMap, s.heightMap_TexelSize, s.number("bumpScale")});
-        }};
+        .draw = [](const Scene& s) { s.draw<MyVertexProgram, MyFragmentProgram>(s.lying()); }};
 }
 
 }  // namespace relief::samples

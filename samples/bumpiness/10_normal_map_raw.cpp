@@ -4,31 +4,23 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float2> uv;
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : LitMaterial {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -38,24 +30,16 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex;
-    sampler2D normalMap;
+struct MyFragmentProgram : LitMaterial {
+    sampler2D normalMap = normals("marble-heights.png");  // new
 
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
-        i.normal = tex2D(normalMap, i.uv).xyz() * 2.0f - 1.0f;
-        i.normal = i.normal.xzy();
+    void InitializeFragmentNormal(Interpolators& i) const {
+        i.normal = tex2D(normalMap, i.uv).xyz() * 2.0f - 1.0f;  // new
+        i.normal = i.normal.xzy();                              // new
         i.normal = normalize(i.normal);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -70,19 +54,14 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_10_normal_map_raw()
-{
+Stage bumpiness_10_normal_map_raw() {
     return {.title = "Normal map, raw",
             .section = "2.1",
             .news = "Wrong on purpose: a DXT5nm normal map, read as if x, y and z were in red, green and blue.",
-            .properties = litProperties(),
-            .inputs = {.mesh = "quad", .albedo = kNone, .normal = "marble-heights.png"},
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
-            .draw = [](const Scene& s) {
-                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.normalMap});
-            }};
+            .draw = [](const Scene& s) { s.draw<MyVertexProgram, MyFragmentProgram>(s.lying()); }};
 }
 
 }  // namespace relief::samples

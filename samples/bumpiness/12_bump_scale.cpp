@@ -4,31 +4,23 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float2> uv;
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : LitMaterial {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -38,25 +30,17 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex;
-    sampler2D normalMap;
-    Float bumpScale;
+struct MyFragmentProgram : LitMaterial {
+    sampler2D normalMap = normals("marble-heights.png");
+    Float bumpScale = number("bumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");  // new
 
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
-        i.normal = UnpackScaleNormal(tex2D(normalMap, i.uv), bumpScale);
+    void InitializeFragmentNormal(Interpolators& i) const {
+        i.normal = UnpackScaleNormal(tex2D(normalMap, i.uv), bumpScale);  // new
         i.normal = i.normal.xzy();
         i.normal = normalize(i.normal);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -71,20 +55,14 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_12_bump_scale()
-{
+Stage bumpiness_12_bump_scale() {
     return {.title = "Bump scale",
             .section = "2.3",
             .news = "x and y scaled before z is found: the bumps of a finished map made flatter.",
-            .properties = litProperties({mapScaleProperty("bumpScale", 0.5f)}),
-            .inputs = {.mesh = "quad", .albedo = kNone, .normal = "marble-heights.png"},
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
-            .draw = [](const Scene& s) {
-                s.draw(
-                    s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                    MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                      s.worldSpaceCameraPos, s.light, s.mainTex, s.normalMap, s.number("bumpScale")});
-            }};
+            .draw = [](const Scene& s) { s.draw<MyVertexProgram, MyFragmentProgram>(s.lying()); }};
 }
 
 }  // namespace relief::samples

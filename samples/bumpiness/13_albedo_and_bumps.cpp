@@ -4,31 +4,23 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float2> uv;
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : LitMaterial {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -38,25 +30,18 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex;
-    sampler2D normalMap;
-    Float bumpScale;
+struct MyFragmentProgram : LitMaterial {
+    sampler2D mainTex = albedo("marble-albedo.png");  // new
+    sampler2D normalMap = normals("marble-heights.png");
+    Float bumpScale = number("bumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");
 
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
+    void InitializeFragmentNormal(Interpolators& i) const {
         i.normal = UnpackScaleNormal(tex2D(normalMap, i.uv), bumpScale);
         i.normal = i.normal.xzy();
         i.normal = normalize(i.normal);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -71,22 +56,22 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_13_albedo_and_bumps()
-{
+Stage bumpiness_13_albedo_and_bumps() {
     return {.title = "Albedo and bumps",
             .section = "2.4",
             .news = "The marble's colours, polished on the left, bumpy on the right.",
-            .properties = litProperties({mapScaleProperty("bumpScale", 0.5f)}),
-            .inputs = {.mesh = "quad", .albedo = "marble-albedo.png", .normal = "marble-heights.png"},
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
             .draw = [](const Scene& s) {
-                for (const float withBumps : {0.0f, 1.0f}) {
-                    s.cutStrip(0.5f * withBumps, 0.5f + 0.5f * withBumps);
-                    s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST")},
-                           MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                             s.worldSpaceCameraPos, s.light, s.mainTex, s.normalMap,
-                                             s.number("bumpScale") * withBumps});
-                }
+                const Object quad = s.lying();
+                const Uniforms uniforms = s.uniforms(quad.worldFromObject);
+                MyFragmentProgram fragment = uniforms;
+                s.cutStrip(0.5f, 1.0f);
+                s.draw(*quad.mesh, MyVertexProgram(uniforms), fragment);
+                fragment.bumpScale = 0.0f;
+                s.cutStrip(0.0f, 0.5f);
+                s.draw(*quad.mesh, MyVertexProgram(uniforms), fragment);
             }};
 }
 

@@ -4,64 +4,53 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
-    TEXCOORD<0, float4> uv;  // main in xy, detail in zw
+    TEXCOORD<0, float4> uv;  // main in xy, detail in zw  // new
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
+struct MyMaterial : LitMaterial {                                                                             // new
+    sampler2D mainTex = albedo("marble-albedo.png");                                                          // new
+    sampler2D normalMap = normals("marble-heights.png");                                                      // new
+    Float bumpScale = number("bumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");    // new
+    sampler2D detailTex = detail("marble-detail.png", {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5});  // new
+    float4 detailTex_ST = vector("detailTex_ST", {3, 3, 0, 0}, {-64, 64}, "tiling and offset of both detail textures");
+};
 
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : MyMaterial {  // new
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
         i.normal = UnityObjectToWorldNormal(object, v.normal);
-        i.uv = float4(TRANSFORM_TEX(v.uv, mainTex_ST), TRANSFORM_TEX(v.uv, detailTex_ST));
+        i.uv = float4(TRANSFORM_TEX(v.uv, mainTex_ST), TRANSFORM_TEX(v.uv, detailTex_ST));  // new
         return i;
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex, detailTex;
-    sampler2D normalMap;
-    Float bumpScale;
-
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
-        i.normal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
+struct MyFragmentProgram : MyMaterial {  // new
+    void InitializeFragmentNormal(Interpolators& i) const {
+        i.normal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);  // new
         i.normal = i.normal.xzy();
         i.normal = normalize(i.normal);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
-        float3 albedo = tex2D(mainTex, i.uv.xy()).xyz() * tint.xyz();
-        albedo *= tex2D(detailTex, i.uv.zw()).xyz() * unity_ColorSpaceDouble;
+        float3 albedo = tex2D(mainTex, i.uv.xy()).xyz() * tint.xyz();          // new
+        albedo *= tex2D(detailTex, i.uv.zw()).xyz() * unity_ColorSpaceDouble;  // new
         float3 specularTint;
         Float oneMinusReflectivity;
         albedo = DiffuseAndSpecularFromMetallic(albedo, metallic, specularTint, oneMinusReflectivity);
@@ -72,24 +61,14 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_14_detail_albedo()
-{
+Stage bumpiness_14_detail_albedo() {
     return {.title = "Detail albedo",
             .section = "3",
             .news = "A finer grain over the marble's colours; it fades out in the distance.",
-            .properties = litProperties({mapScaleProperty("bumpScale", 0.5f), detailTilingProperty()}),
-            .inputs = {.mesh = "quad",
-                       .albedo = "marble-albedo.png",
-                       .normal = "marble-heights.png",
-                       .detail = "marble-detail.png",
-                       .detailImport = {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5}},
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
-            .draw = [](const Scene& s) {
-                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, s.normalMap,
-                                         s.number("bumpScale")});
-            }};
+            .draw = [](const Scene& s) { s.draw<MyVertexProgram, MyFragmentProgram>(s.lying()); }};
 }
 
 }  // namespace relief::samples

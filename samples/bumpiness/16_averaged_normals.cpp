@@ -4,31 +4,32 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
+struct MyMaterial : LitMaterial {
+    sampler2D normalMap = normals("marble-heights.png");
+    Float bumpScale = number("bumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");
+    sampler2D detailTex = detail(kNone, {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5});
+    float4 detailTex_ST = vector("detailTex_ST", {3, 3, 0, 0}, {-64, 64}, "tiling and offset of both detail textures");
+    sampler2D detailNormalMap = detailNormals("marble-detail.png", normalMapSettings(0.1f, true));
+    Float detailBumpScale = number("detailBumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");
+};
 
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : MyMaterial {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -38,27 +39,16 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex, detailTex;
-    sampler2D normalMap, detailNormalMap;
-    Float bumpScale, detailBumpScale;
-
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
-        const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
-        const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
-        i.normal = (mainNormal + detailNormal) * 0.5f;
+struct MyFragmentProgram : MyMaterial {
+    void InitializeFragmentNormal(Interpolators& i) const {
+        const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);                // new
+        const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);  // new
+        i.normal = (mainNormal + detailNormal) * 0.5f;                                                      // new
         i.normal = i.normal.xzy();
         i.normal = normalize(i.normal);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -74,27 +64,14 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_16_averaged_normals()
-{
+Stage bumpiness_16_averaged_normals() {
     return {.title = "Averaged normals",
             .section = "3.2",
             .news = "Wrong on purpose: the average of two normals is flatter than either.",
-            .properties = litProperties({mapScaleProperty("bumpScale", 0.5f), detailTilingProperty(),
-                                         mapScaleProperty("detailBumpScale", 0.5f)}),
-            .inputs = {.mesh = "quad",
-                       .albedo = kNone,
-                       .normal = "marble-heights.png",
-                       .detail = kNone,
-                       .detailNormal = "marble-detail.png",
-                       .detailImport = {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5},
-                       .detailNormalImport = normalMapSettings(0.1f, true)},
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
-            .draw = [](const Scene& s) {
-                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, s.normalMap,
-                                         s.detailNormalMap, s.number("bumpScale"), s.number("detailBumpScale")});
-            }};
+            .draw = [](const Scene& s) { s.draw<MyVertexProgram, MyFragmentProgram>(s.lying()); }};
 }
 
 }  // namespace relief::samples

@@ -4,31 +4,23 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : DetailedMarble {  // new
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -38,26 +30,15 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex, detailTex;
-    sampler2D normalMap, detailNormalMap;
-    Float bumpScale, detailBumpScale;
-
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
+struct MyFragmentProgram : DetailedMarble {  // new
+    void InitializeFragmentNormal(Interpolators& i) const {
         const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
         const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
-        i.normal = BlendNormals(mainNormal, detailNormal);
+        i.normal = BlendNormals(mainNormal, detailNormal);  // new
         i.normal = i.normal.xzy();
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -73,27 +54,14 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_18_whiteout()
-{
+Stage bumpiness_18_whiteout() {
     return {.title = "Whiteout",
             .section = "3.2",
             .news = "Whiteout blending: no division, and steep bumps keep their details.",
-            .properties = litProperties({mapScaleProperty("bumpScale", 0.5f), detailTilingProperty(),
-                                         mapScaleProperty("detailBumpScale", 0.5f)}),
-            .inputs = {.mesh = "quad",
-                       .albedo = "marble-albedo.png",
-                       .normal = "marble-heights.png",
-                       .detail = "marble-detail.png",
-                       .detailNormal = "marble-detail.png",
-                       .detailImport = {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5},
-                       .detailNormalImport = normalMapSettings(0.1f, true)},
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "quad",
             .camera = {.position = {0.0f, 0.9f, -0.75f}},
-            .draw = [](const Scene& s) {
-                s.draw(s.mesh, MyVertexProgram{s.lying(), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, s.normalMap,
-                                         s.detailNormalMap, s.number("bumpScale"), s.number("detailBumpScale")});
-            }};
+            .draw = [](const Scene& s) { s.draw<MyVertexProgram, MyFragmentProgram>(s.lying()); }};
 }
 
 }  // namespace relief::samples

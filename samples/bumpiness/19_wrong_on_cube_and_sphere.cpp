@@ -4,31 +4,23 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : DetailedMarble {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -38,26 +30,15 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex, detailTex;
-    sampler2D normalMap, detailNormalMap;
-    Float bumpScale, detailBumpScale;
-
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
+struct MyFragmentProgram : DetailedMarble {
+    void InitializeFragmentNormal(Interpolators& i) const {
         const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
         const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
         i.normal = BlendNormals(mainNormal, detailNormal);
         i.normal = i.normal.xzy();
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -73,23 +54,15 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_19_wrong_on_cube_and_sphere()
-{
+Stage bumpiness_19_wrong_on_cube_and_sphere() {
     return {.title = "Wrong on cube and sphere",
             .section = "4",
             .news = "Wrong on purpose: the mesh's own normals are ignored, and every side is lit as a floor.",
-            .properties = detailedProperties(),
-            .inputs = detailedMarble("cube+sphere"),
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "cube+sphere",
             .camera = {.position = {0.0f, 0.8f, -2.5f}},
             .draw = [](const Scene& s) {
-                for (const Object& o : s.objects) {
-                    s.draw(
-                        *o.mesh,
-                        MyVertexProgram{s.object(o.worldFromObject), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                        MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                          s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, s.normalMap,
-                                          s.detailNormalMap, s.number("bumpScale"), s.number("detailBumpScale")});
-                }
+                for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram>(o);
             }};
 }
 

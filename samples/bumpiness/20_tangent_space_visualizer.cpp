@@ -5,31 +5,23 @@
 #include "common/tangent_space_visualizer.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : DetailedMaterial {  // new
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -39,26 +31,15 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex, detailTex;
-    sampler2D normalMap, detailNormalMap;
-    Float bumpScale, detailBumpScale;
-
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
+struct MyFragmentProgram : DetailedMaterial {  // new
+    void InitializeFragmentNormal(Interpolators& i) const {
         const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
         const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
         i.normal = BlendNormals(mainNormal, detailNormal);
         i.normal = i.normal.xzy();
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -72,30 +53,27 @@ struct MyFragmentProgram
     }
 };
 
+struct Lines : Uniforms {                                                             // new
+    float offset = number("offset", 0.01f, {0, 1}, "of the lines from the surface");  // new
+    float scale = number("scale", 0.1f, {0, 2}, "the lines' length");                 // new
+};
+
 }  // namespace
 
-Stage bumpiness_20_tangent_space_visualizer()
-{
-    return {
-        .title = "Tangent space visualizer",
-        .section = "4.1",
-        .news = "The directions that a mesh brings along: normals green, tangents red, binormals blue.",
-        .properties = detailedProperties({{"offset", glm::vec4(0.01f), 0.0f, 1.0f, 1, "of the lines from the surface"},
-                                          {"scale", glm::vec4(0.1f), 0.0f, 2.0f, 1, "the lines' length"}}),
-        .inputs = bare("cube+sphere"),
-        .camera = {.position = {0.0f, 0.8f, -2.5f}},
-        .draw = [](const Scene& s) {
-            for (const Object& o : s.objects) {
-                s.draw(*o.mesh,
-                       MyVertexProgram{s.object(o.worldFromObject), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                       MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                         s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, s.normalMap,
-                                         s.detailNormalMap, s.number("bumpScale"), s.number("detailBumpScale")});
-
-                const TangentSpaceVisualizer visualizer = {s.number("offset")[0], s.number("scale")[0]};
-                visualizer.ShowTangentSpace(s, *o.mesh, o.worldFromObject);
-            }
-        }};
+Stage bumpiness_20_tangent_space_visualizer() {
+    return {.title = "Tangent space visualizer",
+            .section = "4.1",
+            .news = "The directions that a mesh brings along: normals green, tangents red, binormals blue.",
+            .uniforms = declared<MyFragmentProgram, Lines>(),
+            .mesh = "cube+sphere",
+            .camera = {.position = {0.0f, 0.8f, -2.5f}},
+            .draw = [](const Scene& s) {
+                const Lines lines = s.uniforms();
+                for (const Object& o : s.objects) {
+                    s.draw<MyVertexProgram, MyFragmentProgram>(o);
+                    TangentSpaceVisualizer{lines.offset, lines.scale}.ShowTangentSpace(s, *o.mesh, o.worldFromObject);
+                }
+            }};
 }
 
 }  // namespace relief::samples

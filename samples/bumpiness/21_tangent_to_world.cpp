@@ -4,67 +4,48 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
-    TANGENT tangent;
+    TANGENT tangent;  // new
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
-    TEXCOORD<2, float4> tangent;
-    TEXCOORD<3, float3> worldPos;
+    TEXCOORD<2, float4> tangent;   // new
+    TEXCOORD<3, float3> worldPos;  // new
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : DetailedMarble {  // new
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
         i.normal = UnityObjectToWorldNormal(object, v.normal);
-        i.tangent = float4(UnityObjectToWorldDir(object, v.tangent.xyz()), v.tangent.w);
+        i.tangent = float4(UnityObjectToWorldDir(object, v.tangent.xyz()), v.tangent.w);  // new
         i.uv = float4(TRANSFORM_TEX(v.uv, mainTex_ST), TRANSFORM_TEX(v.uv, detailTex_ST));
         return i;
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex, detailTex;
-    sampler2D normalMap, detailNormalMap;
-    Float bumpScale, detailBumpScale;
-
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
+struct MyFragmentProgram : DetailedMarble {  // new
+    void InitializeFragmentNormal(Interpolators& i) const {
         const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
         const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
-        const float3 tangentSpaceNormal = BlendNormals(mainNormal, detailNormal);
+        const float3 tangentSpaceNormal = BlendNormals(mainNormal, detailNormal);  // new
 
-        const float3 tangent = i.tangent.xyz();
-        const float3 binormal = cross(i.normal, tangent) * i.tangent.w;
-        i.normal = normalize(tangent * tangentSpaceNormal.x + binormal * tangentSpaceNormal.y +
-                             i.normal * tangentSpaceNormal.z);
+        const float3 tangent = i.tangent.xyz();                                                  // new
+        const float3 binormal = cross(i.normal, tangent) * i.tangent.w;                          // new
+        i.normal = normalize(tangent * tangentSpaceNormal.x + binormal * tangentSpaceNormal.y +  // new
+                             i.normal * tangentSpaceNormal.z);                                   // new
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -80,23 +61,15 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_21_tangent_to_world()
-{
+Stage bumpiness_21_tangent_to_world() {
     return {.title = "Tangent to world",
             .section = "4.2",
             .news = "The map's normals turned from tangent space to the world: bumps on any shape.",
-            .properties = detailedProperties(),
-            .inputs = detailedMarble("cube+sphere"),
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "cube+sphere",
             .camera = {.position = {0.0f, 0.8f, -2.5f}},
             .draw = [](const Scene& s) {
-                for (const Object& o : s.objects) {
-                    s.draw(
-                        *o.mesh,
-                        MyVertexProgram{s.object(o.worldFromObject), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                        MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                          s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, s.normalMap,
-                                          s.detailNormalMap, s.number("bumpScale"), s.number("detailBumpScale")});
-                }
+                for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram>(o);
             }};
 }
 

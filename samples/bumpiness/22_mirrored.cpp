@@ -1,22 +1,19 @@
 // 1.22 Mirrored: Rendering 6 "Bumpiness", section 4.2
-// New: unity_WorldTransformParams.w turns the binormal of a mirrored object round.
+// New: object.unity_WorldTransformParams.w turns the binormal of a mirrored object round.
 // Was: objects that are not mirrored (1.21).
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TANGENT tangent;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
@@ -24,13 +21,8 @@ struct Interpolators
     TEXCOORD<3, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : DetailedMarble {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -41,31 +33,19 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex, detailTex;
-    sampler2D normalMap, detailNormalMap;
-    float4 unity_WorldTransformParams;
-    Float bumpScale, detailBumpScale;
-
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
+struct MyFragmentProgram : DetailedMarble {
+    void InitializeFragmentNormal(Interpolators& i) const {
         const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
         const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
         const float3 tangentSpaceNormal = BlendNormals(mainNormal, detailNormal);
 
         const float3 tangent = i.tangent.xyz();
-        const float3 binormal = cross(i.normal, tangent) * (i.tangent.w * unity_WorldTransformParams.w);
+        const float3 binormal = cross(i.normal, tangent) * (i.tangent.w * object.unity_WorldTransformParams.w);  // new
         i.normal = normalize(tangent * tangentSpaceNormal.x + binormal * tangentSpaceNormal.y +
                              i.normal * tangentSpaceNormal.z);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -81,13 +61,12 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_22_mirrored()
-{
+Stage bumpiness_22_mirrored() {
     return {.title = "Mirrored",
             .section = "4.2",
             .news = "The same shape three times: as it is, mirrored by its scale, and with mirrored uv.",
-            .properties = detailedProperties(),
-            .inputs = detailedMarble("cube"),
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "cube",
             .camera = {.position = {0.0f, 0.8f, -4.1f}},
             .draw = [](const Scene& s) {
                 const Mesh& mirroredUv = s.keep(withMirroredUv(s.mesh));
@@ -95,14 +74,7 @@ Stage bumpiness_22_mirrored()
                 const Object three[] = {{&s.mesh, translation({-1.55f, 0, 0}) * turned},
                                         {&s.mesh, turned * scaling({-1, 1, 1})},
                                         {&mirroredUv, translation({1.55f, 0, 0}) * turned}};
-                for (const Object& o : three) {
-                    const ObjectTransform object = s.object(o.worldFromObject);
-                    s.draw(*o.mesh, MyVertexProgram{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                           MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                             s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, s.normalMap,
-                                             s.detailNormalMap, object.unity_WorldTransformParams,
-                                             s.number("bumpScale"), s.number("detailBumpScale")});
-                }
+                for (const Object& o : three) s.draw<MyVertexProgram, MyFragmentProgram>(o);
             }};
 }
 

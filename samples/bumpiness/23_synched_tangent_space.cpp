@@ -5,19 +5,16 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TANGENT tangent;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
@@ -25,13 +22,8 @@ struct Interpolators
     TEXCOORD<3, float3> worldPos;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : DetailedMaterial {  // new
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -42,33 +34,22 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex, detailTex;
-    sampler2D normalMap, detailNormalMap;
-    float4 unity_WorldTransformParams;
-    Float bumpScale, detailBumpScale;
-    bool renormalise;
+struct MyFragmentProgram : DetailedMaterial {  // new
+    bool renormalise = false;                  // new
 
-    void InitializeFragmentNormal(Interpolators& i) const
-    {
+    void InitializeFragmentNormal(Interpolators& i) const {
         const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
         const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
         const float3 tangentSpaceNormal = BlendNormals(mainNormal, detailNormal);
 
-        float3 tangent = i.tangent.xyz();
-        if (renormalise) Orthonormalise(i.normal, tangent);
-        const float3 binormal = cross(i.normal, tangent) * (i.tangent.w * unity_WorldTransformParams.w);
+        float3 tangent = i.tangent.xyz();                    // new
+        if (renormalise) Orthonormalise(i.normal, tangent);  // new
+        const float3 binormal = cross(i.normal, tangent) * (i.tangent.w * object.unity_WorldTransformParams.w);
         i.normal = normalize(tangent * tangentSpaceNormal.x + binormal * tangentSpaceNormal.y +
                              i.normal * tangentSpaceNormal.z);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -84,30 +65,27 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpiness_23_synched_tangent_space()
-{
+Stage bumpiness_23_synched_tangent_space() {
     return {.title = "Synched tangent space",
             .section = "4.3",
             .news = "A detailed sphere, and a coarse one with its map: synched, with other tangents, renormalised.",
-            .properties = detailedProperties(),
-            .inputs = {.mesh = "", .albedo = kNone, .normal = "", .detail = kNone, .detailNormal = kNone},
+            .uniforms = declared<MyFragmentProgram>(),
             .camera = {.position = {0.0f, 0.4f, -3.7f}},
             .draw = [](const Scene& s) {
                 const BakedSphere& baked = bakedSphere();
-                const sampler2D map = s.samplerOf(baked.normalMap);
-                const ObjectTransform object = s.object(glm::mat4(1.0f));
-                const auto draw = [&](const Mesh& mesh, const sampler2D& normalMap, bool renormalise, int column) {
-                    s.cutCell(column, 4);
-                    s.draw(mesh, MyVertexProgram{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                           MyFragmentProgram{s.vector("tint"), s.number("metallic"), s.number("smoothness"),
-                                             s.worldSpaceCameraPos, s.light, s.mainTex, s.detailTex, normalMap,
-                                             s.detailNormalMap, object.unity_WorldTransformParams, 1.0f, 1.0f,
-                                             renormalise});
-                };
-                draw(baked.high, s.normalMap, false, 0);
-                draw(baked.low, map, false, 1);
-                draw(baked.otherTangents, map, false, 2);
-                draw(baked.low, map, true, 3);
+                const MyVertexProgram vertex = s.uniforms();
+                MyFragmentProgram fragment = s.uniforms();
+                fragment.bumpScale = fragment.detailBumpScale = 1.0f;
+                s.cutCell(0, 4);
+                s.draw(baked.high, vertex, fragment);
+                fragment.normalMap = s.samplerOf(baked.normalMap);
+                s.cutCell(1, 4);
+                s.draw(baked.low, vertex, fragment);
+                s.cutCell(2, 4);
+                s.draw(baked.otherTangents, vertex, fragment);
+                fragment.renormalise = true;
+                s.cutCell(3, 4);
+                s.draw(baked.low, vertex, fragment);
                 for (const std::string& line : baked.measured) s.note(line);
             }};
 }

@@ -1,16 +1,12 @@
 // 1.24 Binormal per vertex or fragment: Rendering 6 "Bumpiness", section 4.4
 // New: one source for both: BINORMAL_PER_FRAGMENT decides where the binormal is computed.
 // Was: the binormal in the fragment program only (1.23).
-#include <utility>
-
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TANGENT tangent;
@@ -21,8 +17,7 @@ template <bool BINORMAL_PER_FRAGMENT>
 struct Interpolators;
 
 template <>
-struct Interpolators<true>
-{
+struct Interpolators<true> {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
@@ -31,8 +26,7 @@ struct Interpolators<true>
 };
 
 template <>
-struct Interpolators<false>
-{
+struct Interpolators<false> {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
@@ -42,13 +36,8 @@ struct Interpolators<false>
 };
 
 template <bool BINORMAL_PER_FRAGMENT>
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
-
-    Interpolators<BINORMAL_PER_FRAGMENT> operator()(VertexData v) const
-    {
+struct MyVertexProgram : DetailedMarble {
+    Interpolators<BINORMAL_PER_FRAGMENT> operator()(VertexData v) const {
         Interpolators<BINORMAL_PER_FRAGMENT> i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -66,19 +55,8 @@ struct MyVertexProgram
 };
 
 template <bool BINORMAL_PER_FRAGMENT>
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    UnityLight light;
-    sampler2D mainTex, detailTex;
-    sampler2D normalMap, detailNormalMap;
-    float4 unity_WorldTransformParams;
-    Float bumpScale, detailBumpScale;
-
-    void InitializeFragmentNormal(Interpolators<BINORMAL_PER_FRAGMENT>& i) const
-    {
+struct MyFragmentProgram : DetailedMarble {
+    void InitializeFragmentNormal(Interpolators<BINORMAL_PER_FRAGMENT>& i) const {
         const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
         const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
         const float3 tangentSpaceNormal = BlendNormals(mainNormal, detailNormal);
@@ -86,7 +64,7 @@ struct MyFragmentProgram
         const float3 tangent = i.tangent.xyz();
         float3 binormal;
         if constexpr (BINORMAL_PER_FRAGMENT) {
-            binormal = CreateBinormal(i.normal, tangent, i.tangent.w, unity_WorldTransformParams.w);
+            binormal = CreateBinormal(i.normal, tangent, i.tangent.w, object.unity_WorldTransformParams.w);
         } else {
             binormal = i.binormal;
         }
@@ -94,8 +72,7 @@ struct MyFragmentProgram
                              i.normal * tangentSpaceNormal.z);
     }
 
-    float4 operator()(Interpolators<BINORMAL_PER_FRAGMENT> i) const
-    {
+    float4 operator()(Interpolators<BINORMAL_PER_FRAGMENT> i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -110,15 +87,14 @@ struct MyFragmentProgram
 };
 
 // The difference of the two normals, enlarged. Where the binormal points tells the sign that made it.
-struct ShowDifference
-{
+struct ShowDifference {
     MyFragmentProgram<false> perVertex;
     MyFragmentProgram<true> perFragment;
     Float exaggeration;
 
-    float4 operator()(Interpolators<false> i) const
-    {
-        const Float sign = dot(cross(i.normal, i.tangent), i.binormal) * perFragment.unity_WorldTransformParams.w;
+    float4 operator()(Interpolators<false> i) const {
+        const Float sign =
+            dot(cross(i.normal, i.tangent), i.binormal) * perFragment.object.unity_WorldTransformParams.w;
         Interpolators<true> other = {i.position, i.uv, i.normal, float4(i.tangent, sign), i.worldPos};
         perVertex.InitializeFragmentNormal(i);
         perFragment.InitializeFragmentNormal(other);
@@ -126,42 +102,34 @@ struct ShowDifference
     }
 };
 
-// Both programs of a variant.
-template <bool BINORMAL_PER_FRAGMENT>
-auto programs(const Scene& s)
-{
-    const ObjectTransform object = s.object(s.objects[0].worldFromObject);
-    return std::pair(MyVertexProgram<BINORMAL_PER_FRAGMENT>{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-                     MyFragmentProgram<BINORMAL_PER_FRAGMENT>{
-                         s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos, s.light,
-                         s.mainTex, s.detailTex, s.normalMap, s.detailNormalMap, object.unity_WorldTransformParams,
-                         s.number("bumpScale"), s.number("detailBumpScale")});
-}
+struct Choice : Uniforms {
+    int binormalPerFragment =
+        choice("binormalPerFragment", 2, {"per vertex", "per fragment", "both"}, "where the binormal is computed");
+    Float exaggeration = number("exaggeration", 5.0f, {1, 1000}, "of the difference");
+};
 
 }  // namespace
 
-Stage bumpiness_24_binormal_per_vertex_or_fragment()
-{
+Stage bumpiness_24_binormal_per_vertex_or_fragment() {
     return {
         .title = "Binormal per vertex or fragment",
         .section = "4.4",
         .news = "The binormal per vertex (left), per fragment (middle), and the normals' difference (right).",
-        .properties = detailedProperties({binormalPerFragmentProperty(2.0f),
-                                          {"exaggeration", glm::vec4(5.0f), 1.0f, 1000.0f, 1, "of the difference"}}),
-        .inputs = detailedMarble("low-sphere"),
+        .uniforms = declared<MyFragmentProgram<true>, Choice>(),
+        .mesh = "low-sphere",
         .camera = {.position = {0.0f, 0.35f, -2.5f}},
         .draw = [](const Scene& s) {
-            const auto [vertex, perVertex] = programs<false>(s);
-            const auto [fragmentVertex, perFragment] = programs<true>(s);
-            const float which = s.number("binormalPerFragment")[0];
-            if (which == 2.0f) s.cutCell(0, 3);
-            if (which != 1.0f) s.draw(s.mesh, vertex, perVertex);
-            if (which == 2.0f) s.cutCell(1, 3);
-            if (which != 0.0f) s.draw(s.mesh, fragmentVertex, perFragment);
-            if (which == 2.0f) {
-                s.cutCell(2, 3);
-                s.draw(s.mesh, vertex, ShowDifference{perVertex, perFragment, s.number("exaggeration")});
-            }
+            const Object& o = s.objects[0];
+            const Uniforms uniforms = s.uniforms(o.worldFromObject);
+            const Choice choice = uniforms;
+            const bool both = choice.binormalPerFragment == 2;
+            if (both) s.cutCell(0, 3);
+            if (choice.binormalPerFragment != 1) s.draw<MyVertexProgram<false>, MyFragmentProgram<false>>(o);
+            if (both) s.cutCell(1, 3);
+            if (choice.binormalPerFragment != 0) s.draw<MyVertexProgram<true>, MyFragmentProgram<true>>(o);
+            if (!both) return;
+            s.cutCell(2, 3);
+            s.draw(*o.mesh, MyVertexProgram<false>(uniforms), ShowDifference{uniforms, uniforms, choice.exaggeration});
         }};
 }
 

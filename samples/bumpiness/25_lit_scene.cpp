@@ -4,11 +4,9 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TANGENT tangent;
@@ -19,8 +17,7 @@ template <bool BINORMAL_PER_FRAGMENT>
 struct Interpolators;
 
 template <>
-struct Interpolators<true>
-{
+struct Interpolators<true> {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
@@ -29,8 +26,7 @@ struct Interpolators<true>
 };
 
 template <>
-struct Interpolators<false>
-{
+struct Interpolators<false> {
     SV_POSITION position;
     TEXCOORD<0, float4> uv;  // main in xy, detail in zw
     TEXCOORD<1, float3> normal;
@@ -40,13 +36,8 @@ struct Interpolators<false>
 };
 
 template <bool BINORMAL_PER_FRAGMENT>
-struct MyVertexProgram
-{
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
-
-    Interpolators<BINORMAL_PER_FRAGMENT> operator()(VertexData v) const
-    {
+struct MyVertexProgram : DetailedMarble {
+    Interpolators<BINORMAL_PER_FRAGMENT> operator()(VertexData v) const {
         Interpolators<BINORMAL_PER_FRAGMENT> i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -63,20 +54,11 @@ struct MyVertexProgram
     }
 };
 
-template <bool BINORMAL_PER_FRAGMENT, class Light>
-struct MyFragmentProgram
-{
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    Light source;
-    sampler2D mainTex, detailTex;
-    sampler2D normalMap, detailNormalMap;
-    float4 unity_WorldTransformParams;
-    Float bumpScale, detailBumpScale;
+template <bool BINORMAL_PER_FRAGMENT, class Light>  // new
+struct MyFragmentProgram : DetailedMarble {
+    Light source = {};  // new
 
-    void InitializeFragmentNormal(Interpolators<BINORMAL_PER_FRAGMENT>& i) const
-    {
+    void InitializeFragmentNormal(Interpolators<BINORMAL_PER_FRAGMENT>& i) const {
         const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
         const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
         const float3 tangentSpaceNormal = BlendNormals(mainNormal, detailNormal);
@@ -84,7 +66,7 @@ struct MyFragmentProgram
         const float3 tangent = i.tangent.xyz();
         float3 binormal;
         if constexpr (BINORMAL_PER_FRAGMENT) {
-            binormal = CreateBinormal(i.normal, tangent, i.tangent.w, unity_WorldTransformParams.w);
+            binormal = CreateBinormal(i.normal, tangent, i.tangent.w, object.unity_WorldTransformParams.w);
         } else {
             binormal = i.binormal;
         }
@@ -92,8 +74,7 @@ struct MyFragmentProgram
                              i.normal * tangentSpaceNormal.z);
     }
 
-    float4 operator()(Interpolators<BINORMAL_PER_FRAGMENT> i) const
-    {
+    float4 operator()(Interpolators<BINORMAL_PER_FRAGMENT> i) const {
         InitializeFragmentNormal(i);
         const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
 
@@ -103,59 +84,58 @@ struct MyFragmentProgram
         Float oneMinusReflectivity;
         albedo = DiffuseAndSpecularFromMetallic(albedo, metallic, specularTint, oneMinusReflectivity);
 
-        const UnityLight light = CreateLight(source, i.worldPos);
-        return UNITY_BRDF_PBS(albedo, specularTint, smoothness, i.normal, viewDir, light);
+        return UNITY_BRDF_PBS(albedo, specularTint, smoothness, i.normal, viewDir, CreateLight(source, i.worldPos));
     }
 };
 
-// The base pass fills the depth buffer; an additive pass adds its light where that very depth is seen.
-constexpr RenderState kBasePass = {};
+// The base pass fills the depth buffer; an additive pass adds its light where that very depth is seen.  // new
+constexpr RenderState kBasePass = {};  // new
 constexpr RenderState kAdditivePass = {.depthTest = Compare::equal, .depthWrite = false, .blend = Blend::additive};
 
-template <bool BINORMAL_PER_FRAGMENT, class Light>
-void drawPass(const Scene& s, const Object& o, const Light& light, const RenderState& pass)
-{
-    const ObjectTransform object = s.object(o.worldFromObject);
-    s.draw(*o.mesh, MyVertexProgram<BINORMAL_PER_FRAGMENT>{object, s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-           MyFragmentProgram<BINORMAL_PER_FRAGMENT, Light>{
-               s.vector("tint"), s.number("metallic"), s.number("smoothness"), s.worldSpaceCameraPos, light, s.mainTex,
-               s.detailTex, s.normalMap, s.detailNormalMap, object.unity_WorldTransformParams, s.number("bumpScale"),
-               s.number("detailBumpScale")},
-           pass);
+struct Lights : Uniforms {  // new
+    bool binormalPerFragment = choice("binormalPerFragment", kBinormalPerFragment, {"per vertex", "per fragment"},
+                                      "where the binormal is computed") != 0;          // new
+    UnityLight light = sun(35.0f, -20.0f);                                             // new
+    Float sunStrength = number("sunStrength", 0.5f, {0, 16}, "base pass");             // new
+    Float lightStrength = number("lightStrength", 8.0f, {0, 64}, "of lamp and spot");  // new
+};
+
+template <bool BINORMAL_PER_FRAGMENT, class Light>                                             // new
+void drawPass(const Scene& s, const Object& o, const Light& light, const RenderState& pass) {  // new
+    const MyVertexProgram<BINORMAL_PER_FRAGMENT> vertex = s.uniforms(o.worldFromObject);       // new
+    MyFragmentProgram<BINORMAL_PER_FRAGMENT, Light> fragment = s.uniforms(o.worldFromObject);  // new
+    fragment.source = light;                                                                   // new
+    s.draw(*o.mesh, vertex, fragment, pass);                                                   // new
 }
 
-template <bool BINORMAL_PER_FRAGMENT>
-void drawObject(const Scene& s, const Object& o)
-{
-    const Float strength = s.number("lightStrength");
-    const DirectionalLight sun = {s.light.color * s.number("sunStrength"), s.light.dir};
-    const PointLight lamp = {float3(0.25f, 0.5f, 1.0f) * strength, {-0.7f, 0.9f, -0.9f}, 1.6f};
-    const SpotLight spot = {float3(1.0f, 0.5f, 0.15f) * strength,
-                            {1.7f, 1.7f, -0.9f},
-                            4.0f,
-                            normalize(float3(-0.47f, -0.75f, 0.43f)),
-                            0.9f,
-                            0.97f};
-    drawPass<BINORMAL_PER_FRAGMENT>(s, o, sun, kBasePass);
-    if (s.reaches("the lamp", lamp, o)) drawPass<BINORMAL_PER_FRAGMENT>(s, o, lamp, kAdditivePass);
-    if (s.reaches("the spot", spot, o)) drawPass<BINORMAL_PER_FRAGMENT>(s, o, spot, kAdditivePass);
+template <bool BINORMAL_PER_FRAGMENT>                                                                        // new
+void drawObject(const Scene& s, const Object& o, const Lights& lights) {                                     // new
+    const DirectionalLight sun = {lights.light.color * lights.sunStrength, lights.light.dir};                // new
+    const PointLight lamp = {float3(0.25f, 0.5f, 1.0f) * lights.lightStrength, {-0.7f, 0.9f, -0.9f}, 1.6f};  // new
+    const SpotLight spot = {float3(1.0f, 0.5f, 0.15f) * lights.lightStrength,                                // new
+                            {1.7f, 1.7f, -0.9f},                                                             // new
+                            4.0f,                                                                            // new
+                            normalize(float3(-0.47f, -0.75f, 0.43f)),                                        // new
+                            0.9f,                                                                            // new
+                            0.97f};                                                                          // new
+    drawPass<BINORMAL_PER_FRAGMENT>(s, o, sun, kBasePass);                                                   // new
+    if (s.reaches("the lamp", lamp, o)) drawPass<BINORMAL_PER_FRAGMENT>(s, o, lamp, kAdditivePass);          // new
+    if (s.reaches("the spot", spot, o)) drawPass<BINORMAL_PER_FRAGMENT>(s, o, spot, kAdditivePass);          // new
 }
 
 }  // namespace
 
-Stage bumpiness_25_lit_scene()
-{
+Stage bumpiness_25_lit_scene() {
     return {.title = "Lit scene",
             .section = "4.4",
             .news = "Cube, sphere and quad under three lights: a base pass and additive passes.",
-            .properties = detailedProperties({binormalPerFragmentProperty(kBinormalPerFragment ? 1.0f : 0.0f),
-                                              {"sunStrength", glm::vec4(0.5f), 0.0f, 16.0f, 1, "base pass"},
-                                              {"lightStrength", glm::vec4(8.0f), 0.0f, 64.0f, 1, "of lamp and spot"}}),
-            .inputs = detailedMarble("cube+sphere+quad"),
+            .uniforms = declared<MyFragmentProgram<true, PointLight>, Lights>(),
+            .mesh = "cube+sphere+quad",
             .camera = {.position = {0.0f, 1.1f, -2.7f}, .target = {0.0f, -0.1f, 0.0f}},
             .draw = [](const Scene& s) {
+                const Lights lights = s.uniforms();
                 for (const Object& o : s.objects) {
-                    s.number("binormalPerFragment")[0] != 0.0f ? drawObject<true>(s, o) : drawObject<false>(s, o);
+                    lights.binormalPerFragment ? drawObject<true>(s, o, lights) : drawObject<false>(s, o, lights);
                 }
             }};
 }

@@ -4,19 +4,16 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TANGENT tangent;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION clipPosition;
     TEXCOORD<0, float2> textureCoordinates;
     TEXCOORD<1, float3> tangentWorld;
@@ -24,12 +21,8 @@ struct Interpolators
     TEXCOORD<3, float3> normalWorld;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.tangentWorld = UnityObjectToWorldDir(object, v.tangent.xyz());
         i.normalWorld = UnityObjectToWorldNormal(object, v.normal);
@@ -41,15 +34,8 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    sampler2D bumpMap;
-    float4 bumpMap_ST, color;
-    float4 worldSpaceLightPos0;  // w: 0 for a direction
-    float3 lightColor0;
-
-    float3 NormalDirection(const Interpolators& i) const
-    {
+struct MyFragmentProgram : DiffuseMaterial {
+    float3 NormalDirection(const Interpolators& i) const {
         const float4 encodedNormal = tex2D(bumpMap, TRANSFORM_TEX(i.textureCoordinates, bumpMap_ST));
         float3 localCoords = float3(encodedNormal.wy() * 2.0f - 1.0f, Float(0.0f));
         localCoords.z = sqrt(1.0f - saturate(dot(localCoords, localCoords)));
@@ -58,8 +44,7 @@ struct MyFragmentProgram
         return normalize(mul(localSurface2World, localCoords));
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         const float3 normalDirection = NormalDirection(i);
         const float3 lightDirection = normalize(worldSpaceLightPos0.xyz());
         const float3 diffuseReflection =
@@ -70,20 +55,15 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage bumpy_surfaces_01_decoded_normal_map()
-{
+Stage bumpy_surfaces_01_decoded_normal_map() {
     return {.title = "Decoded normal map",
             .section = "Normal Mapping in Unity",
             .news = "x from alpha, y from green, z by the root, and a matrix from the surface to the world.",
-            .properties = diffuseProperties(),
-            .inputs = {.mesh = "sphere", .normal = "marble-heights.png", .normalImport = normalMapSettings(0.02f)},
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "sphere",
             .camera = {.position = {0.0f, 0.35f, -1.75f}},
             .draw = [](const Scene& s) {
-                for (const Object& o : s.objects) {
-                    s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
-                           MyFragmentProgram{s.normalMap, s.vector("bumpMap_ST"), s.vector("color"),
-                                             float4(s.light.dir, Float(0.0f)), s.light.color});
-                }
+                for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram>(o);
             }};
 }
 

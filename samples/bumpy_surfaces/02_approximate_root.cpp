@@ -5,19 +5,16 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TANGENT tangent;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION clipPosition;
     TEXCOORD<0, float2> textureCoordinates;
     TEXCOORD<1, float3> tangentWorld;
@@ -25,12 +22,8 @@ struct Interpolators
     TEXCOORD<3, float3> normalWorld;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.tangentWorld = UnityObjectToWorldDir(object, v.tangent.xyz());
         i.normalWorld = UnityObjectToWorldNormal(object, v.normal);
@@ -42,27 +35,21 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    sampler2D bumpMap;
-    float4 bumpMap_ST, color;
-    float4 worldSpaceLightPos0;  // w: 0 for a direction
-    float3 lightColor0;
-    bool exact;
+struct MyFragmentProgram : DiffuseMaterial {
+    sampler2D bumpMap = normals("marble-heights.png", normalMapSettings(0.05f));  // new
+    bool exact = true;                                                            // new
 
-    float3 NormalDirection(const Interpolators& i) const
-    {
+    float3 NormalDirection(const Interpolators& i) const {
         const float4 encodedNormal = tex2D(bumpMap, TRANSFORM_TEX(i.textureCoordinates, bumpMap_ST));
         float3 localCoords = float3(encodedNormal.wy() * 2.0f - 1.0f, Float(0.0f));
-        const Float square = dot(localCoords, localCoords);
-        localCoords.z = exact ? sqrt(1.0f - saturate(square)) : 1.0f - 0.5f * square;
+        const Float square = dot(localCoords, localCoords);                            // new
+        localCoords.z = exact ? sqrt(1.0f - saturate(square)) : 1.0f - 0.5f * square;  // new
 
         float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
         return normalize(mul(localSurface2World, localCoords));
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         const float3 normalDirection = NormalDirection(i);
         const float3 lightDirection = normalize(worldSpaceLightPos0.xyz());
         const float3 diffuseReflection =
@@ -71,34 +58,35 @@ struct MyFragmentProgram
     }
 };
 
+struct Scale : Uniforms {                                                                     // new
+    Float maximumAngle = number("maximumAngle", 10.0f, {0.01f, 90}, "degrees that are red");  // new
+};
+
 }  // namespace
 
-Stage bumpy_surfaces_02_approximate_root()
-{
-    return {
-        .title = "Approximate root",
-        .section = "Normal Mapping in Unity",
-        .news = "z by the root (left), without one (middle), and the angle between the two normals (right).",
-        .properties = diffuseProperties({{"maximumAngle", glm::vec4(10.0f), 0.01f, 90.0f, 1, "degrees that are red"}}),
-        .inputs = {.mesh = "sphere", .normal = "marble-heights.png", .normalImport = normalMapSettings(0.05f)},
-        .camera = {.position = {0.0f, 0.35f, -2.6f}},
-        .draw = [](const Scene& s) {
-            const MyVertexProgram vertex = {s.object(s.objects[0].worldFromObject)};
-            const MyFragmentProgram exact = {s.normalMap,       s.vector("bumpMap_ST"),
-                                             s.vector("color"), float4(s.light.dir, Float(0.0f)),
-                                             s.light.color,     true};
-            MyFragmentProgram approximate = exact;
-            approximate.exact = false;
+Stage bumpy_surfaces_02_approximate_root() {
+    return {.title = "Approximate root",
+            .section = "Normal Mapping in Unity",
+            .news = "z by the root (left), without one (middle), and the angle between the two normals (right).",
+            .uniforms = declared<MyFragmentProgram, Scale>(),
+            .mesh = "sphere",
+            .camera = {.position = {0.0f, 0.35f, -2.6f}},
+            .draw = [](const Scene& s) {
+                const Uniforms uniforms = s.uniforms(s.objects[0].worldFromObject);
+                const MyVertexProgram vertex = uniforms;
+                const MyFragmentProgram exact = uniforms;
+                MyFragmentProgram approximate = uniforms;
+                approximate.exact = false;
 
-            s.cutCell(0, 3);
-            s.draw(s.mesh, vertex, exact);
-            s.cutCell(1, 3);
-            s.draw(s.mesh, vertex, approximate);
-            s.cutCell(2, 3);
-            s.draw(s.mesh, vertex,
-                   ShowAngle<Interpolators, MyFragmentProgram>{exact, approximate, s.number("maximumAngle")});
-            drawScale(s, 3);
-        }};
+                s.cutCell(0, 3);
+                s.draw(s.mesh, vertex, exact);
+                s.cutCell(1, 3);
+                s.draw(s.mesh, vertex, approximate);
+                s.cutCell(2, 3);
+                const Float red = Scale(uniforms).maximumAngle;
+                s.draw(s.mesh, vertex, ShowAngle<Interpolators, MyFragmentProgram>{exact, approximate, red});
+                drawScale(s, 3);
+            }};
 }
 
 }  // namespace relief::samples

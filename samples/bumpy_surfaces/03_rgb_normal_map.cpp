@@ -5,19 +5,16 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TANGENT tangent;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION clipPosition;
     TEXCOORD<0, float2> textureCoordinates;
     TEXCOORD<1, float3> tangentWorld;
@@ -25,12 +22,8 @@ struct Interpolators
     TEXCOORD<3, float3> normalWorld;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.tangentWorld = UnityObjectToWorldDir(object, v.tangent.xyz());
         i.normalWorld = UnityObjectToWorldNormal(object, v.normal);
@@ -42,29 +35,24 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    sampler2D bumpMap;
-    float4 bumpMap_ST, color;
-    float4 worldSpaceLightPos0;  // w: 0 for a direction
-    float3 lightColor0;
-    bool rgb;
+struct MyFragmentProgram : DiffuseMaterial {
+    sampler2D bumpMap = normals("marble-heights.png", {.kind = ImportSettings::Kind::normalMap, .bumpiness = 0.02f});
+    sampler2D swizzled = detailNormals("marble-heights.png", normalMapSettings(0.02f));  // new
+    bool rgb = true;                                                                     // new
 
-    float3 NormalDirection(const Interpolators& i) const
-    {
+    float3 NormalDirection(const Interpolators& i) const {
         const float4 encodedNormal = tex2D(bumpMap, TRANSFORM_TEX(i.textureCoordinates, bumpMap_ST));
-        float3 localCoords = encodedNormal.xyz() * 2.0f - 1.0f;
-        if (!rgb) {
-            localCoords = float3(encodedNormal.wy() * 2.0f - 1.0f, Float(0.0f));
-            localCoords.z = sqrt(1.0f - saturate(dot(localCoords, localCoords)));
+        float3 localCoords = encodedNormal.xyz() * 2.0f - 1.0f;                    // new
+        if (!rgb) {                                                                // new
+            localCoords = float3(encodedNormal.wy() * 2.0f - 1.0f, Float(0.0f));   // new
+            localCoords.z = sqrt(1.0f - saturate(dot(localCoords, localCoords)));  // new
         }
 
         float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
         return normalize(mul(localSurface2World, localCoords));
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         const float3 normalDirection = NormalDirection(i);
         const float3 lightDirection = normalize(worldSpaceLightPos0.xyz());
         const float3 diffuseReflection =
@@ -73,28 +61,26 @@ struct MyFragmentProgram
     }
 };
 
+struct Scale : Uniforms {
+    Float maximumAngle = number("maximumAngle", 4.0f, {0.01f, 90}, "degrees that are red");  // new
+};
+
 }  // namespace
 
-Stage bumpy_surfaces_03_rgb_normal_map()
-{
+Stage bumpy_surfaces_03_rgb_normal_map() {
     return {
         .title = "RGB normal map",
         .section = "Normal Mapping in Unity",
         .news = "z computed from alpha and green (left), stored in blue (middle), and the angle between them (right).",
-        .properties = diffuseProperties({{"maximumAngle", glm::vec4(4.0f), 0.01f, 90.0f, 1, "degrees that are red"}}),
-        .inputs = {.mesh = "sphere",
-                   .normal = "marble-heights.png",
-                   .detailNormal = "marble-heights.png",
-                   .normalImport = {.kind = ImportSettings::Kind::normalMap, .bumpiness = 0.02f},
-                   .detailNormalImport = normalMapSettings(0.02f)},
+        .uniforms = declared<MyFragmentProgram, Scale>(),
+        .mesh = "sphere",
         .camera = {.position = {0.0f, 0.35f, -2.6f}},
         .draw = [](const Scene& s) {
-            const MyVertexProgram vertex = {s.object(s.objects[0].worldFromObject)};
-            const MyFragmentProgram stored = {s.normalMap,       s.vector("bumpMap_ST"),
-                                              s.vector("color"), float4(s.light.dir, Float(0.0f)),
-                                              s.light.color,     true};
-            MyFragmentProgram computed = stored;
-            computed.bumpMap = s.detailNormalMap;
+            const Uniforms uniforms = s.uniforms(s.objects[0].worldFromObject);
+            const MyVertexProgram vertex = uniforms;
+            const MyFragmentProgram stored = uniforms;
+            MyFragmentProgram computed = uniforms;
+            computed.bumpMap = computed.swizzled;
             computed.rgb = false;
 
             s.cutCell(0, 3);
@@ -102,8 +88,8 @@ Stage bumpy_surfaces_03_rgb_normal_map()
             s.cutCell(1, 3);
             s.draw(s.mesh, vertex, stored);
             s.cutCell(2, 3);
-            s.draw(s.mesh, vertex,
-                   ShowAngle<Interpolators, MyFragmentProgram>{computed, stored, s.number("maximumAngle")});
+            const Float red = Scale(uniforms).maximumAngle;
+            s.draw(s.mesh, vertex, ShowAngle<Interpolators, MyFragmentProgram>{computed, stored, red});
             drawScale(s, 3);
         }};
 }

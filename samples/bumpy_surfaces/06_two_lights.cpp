@@ -4,19 +4,16 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
     TANGENT tangent;
     TEXCOORD<0, float2> uv;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION clipPosition;
     TEXCOORD<0, float2> textureCoordinates;
     TEXCOORD<1, float3> tangentWorld;
@@ -25,12 +22,8 @@ struct Interpolators
     TEXCOORD<4, float3> position;  // in world space
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.tangentWorld = UnityObjectToWorldDir(object, v.tangent.xyz());
         i.normalWorld = UnityObjectToWorldNormal(object, v.normal);
@@ -43,17 +36,8 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    sampler2D bumpMap;
-    float4 bumpMap_ST, color, specColor;
-    Float shininess, tutorialForm;
-    float3 worldSpaceCameraPos, ambient;
-    float4 worldSpaceLightPos0;  // w: 0 for a direction, 1 for a position
-    float3 lightColor0;
-
-    float4 operator()(Interpolators i) const
-    {
+struct MyFragmentProgram : PhongMaterial {
+    float4 operator()(Interpolators i) const {
         const float4 encodedNormal = tex2D(bumpMap, TRANSFORM_TEX(i.textureCoordinates, bumpMap_ST));
         float3 localCoords = float3(encodedNormal.wy() * 2.0f - 1.0f, Float(0.0f));
         localCoords.z = sqrt(1.0f - saturate(dot(localCoords, localCoords)));
@@ -61,10 +45,10 @@ struct MyFragmentProgram
         float3x3 localSurface2World = {i.tangentWorld, i.binormalWorld, i.normalWorld};
         const float3 normalDirection = normalize(mul(localSurface2World, localCoords));
         const float3 viewDirection = normalize(worldSpaceCameraPos - i.position);
-        const float3 vertexToLightSource = worldSpaceLightPos0.xyz() - i.position * worldSpaceLightPos0.w;
-        const float3 lightDirection = normalize(vertexToLightSource);
-        const Float distance = max(length(vertexToLightSource), Float(1e-3f));
-        const Float attenuation = select(worldSpaceLightPos0.w == 0.0f, Float(1.0f), 1.0f / distance);
+        const float3 vertexToLightSource = worldSpaceLightPos0.xyz() - i.position * worldSpaceLightPos0.w;  // new
+        const float3 lightDirection = normalize(vertexToLightSource);                                       // new
+        const Float distance = max(length(vertexToLightSource), Float(1e-3f));                              // new
+        const Float attenuation = select(worldSpaceLightPos0.w == 0.0f, Float(1.0f), 1.0f / distance);      // new
 
         const float3 ambientLighting = ambient * color.xyz();
         const Float NdotL = dot(normalDirection, lightDirection);
@@ -77,40 +61,33 @@ struct MyFragmentProgram
     }
 };
 
-// For additional light sources: added where the depth of the first pass is seen.
+struct Lamp : Uniforms {                                                                               // new
+    Float strength = number("lamp", 0.4f, {0, 8}, "strength of the point light");                      // new
+    float3 position = vector("lampPosition", glm::vec3(-0.8f, 0.1f, -0.6f), {-8, 8}, "in the world");  // new
+};
+
+// For additional light sources: added where the depth of the first pass is seen.  // new
 constexpr RenderState kForwardAdd = {.depthTest = Compare::equal, .depthWrite = false, .blend = Blend::additive};
 
 }  // namespace
 
-Stage bumpy_surfaces_06_two_lights()
-{
+Stage bumpy_surfaces_06_two_lights() {
     return {.title = "Two lights",
             .section = "ForwardAdd",
             .news = "A lamp beside the sun, weaker by 1 / distance: a second pass, whose result is added.",
-            .properties = phongProperties({{"lamp", glm::vec4(0.4f), 0.0f, 8.0f, 1, "strength of the point light"},
-                                           {"lampPosition", {-0.8f, 0.1f, -0.6f, 1}, -8.0f, 8.0f, 3, "in the world"}}),
-            .inputs = {.mesh = "sphere+quad", .normal = "marble-heights.png", .normalImport = normalMapSettings(0.02f)},
+            .uniforms = declared<MyFragmentProgram, Lamp>(),
+            .mesh = "sphere+quad",
             .camera = {.position = {0.0f, 0.9f, -2.3f}},
             .draw = [](const Scene& s) {
-                MyFragmentProgram sun;
-                sun.bumpMap = s.normalMap;
-                sun.bumpMap_ST = s.vector("bumpMap_ST");
-                sun.color = s.vector("color");
-                sun.specColor = s.vector("specColor");
-                sun.shininess = s.number("shininess");
-                sun.tutorialForm = s.number("tutorialForm");
-                sun.worldSpaceCameraPos = s.worldSpaceCameraPos;
-                sun.ambient = s.vector("ambient").xyz();
-                sun.worldSpaceLightPos0 = float4(s.light.dir, Float(0.0f));
-                sun.lightColor0 = s.light.color * s.number("sun");
-                MyFragmentProgram lamp = sun;
-                lamp.ambient = float3(Float(0.0f));
-                lamp.worldSpaceLightPos0 = float4(s.vector("lampPosition").xyz(), Float(1.0f));
-                lamp.lightColor0 = float3(0.25f, 0.5f, 1.0f) * s.number("lamp");
+                const Lamp lamp = s.uniforms();
                 for (const Object& o : s.objects) {
-                    const MyVertexProgram vertex = {s.object(o.worldFromObject)};
-                    s.draw(*o.mesh, vertex, sun);
-                    s.draw(*o.mesh, vertex, lamp, kForwardAdd);
+                    const MyVertexProgram vertex = s.uniforms(o.worldFromObject);
+                    MyFragmentProgram fragment = s.uniforms(o.worldFromObject);
+                    s.draw(*o.mesh, vertex, fragment);
+                    fragment.ambient = float3(0.0f);
+                    fragment.worldSpaceLightPos0 = float4(lamp.position, 1.0f);
+                    fragment.lightColor0 = float3(0.25f, 0.5f, 1.0f) * lamp.strength;
+                    s.draw(*o.mesh, vertex, fragment, kForwardAdd);
                 }
             }};
 }

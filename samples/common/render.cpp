@@ -17,6 +17,17 @@ std::string text(float number)
     return buffer;
 }
 
+// "0 (off), 1 (on)".
+std::string choicesOf(const Property& property)
+{
+    if (property.choices.empty()) return "0 (off), 1 (on)";
+    std::string all;
+    for (std::size_t i = 0; i < property.choices.size(); ++i) {
+        all += (i > 0 ? ", " : "") + std::to_string(i) + " (" + property.choices[i] + ")";
+    }
+    return all;
+}
+
 Expected<void> set(const Stage& stage, std::vector<Property>& properties, const std::string& setting)
 {
     const std::size_t equals = setting.find('=');
@@ -50,6 +61,9 @@ Expected<void> set(const Stage& stage, std::vector<Property>& properties, const 
             return fail("--set " + setting + ": " + text(number) + " is outside the range of " + name + ", " +
                         text(property->minimum) + " to " + text(property->maximum));
         }
+        if (property->isWhole() && number != std::floor(number)) {
+            return fail("--set " + setting + ": " + name + " is one of " + choicesOf(*property));
+        }
         property->value[i] = number;
         if (last) break;
         at = rest + 1;
@@ -64,12 +78,12 @@ Expected<PreparedStage> PreparedStage::prepare(const Stage& stage, const std::ve
 {
     PreparedStage prepared;
     prepared.stage = &stage;
-    prepared.properties = stage.properties;
+    prepared.properties = stage.uniforms.properties;
     for (const std::string& setting : settings) {
         const Expected<void> result = set(stage, prepared.properties, setting);
         if (!result) return tl::unexpected(result.error());
     }
-    Expected<std::unique_ptr<LoadedInputs>> inputs = loadInputs(stage.inputs, files);
+    Expected<std::unique_ptr<LoadedInputs>> inputs = loadInputs(stage.inputs(), files);
     if (!inputs) return tl::unexpected(inputs.error());
     prepared.inputs = std::move(*inputs);
     prepared.log = std::make_unique<SceneLog>();

@@ -27,6 +27,9 @@ public:
     void record(Frame& frame, int width, int height) const { record(frame, width, height, camera()); }
     void record(Frame& frame, int width, int height, const Camera& camera) const;
 
+    // What is wrong with what record() has recorded, in one line; empty: nothing.
+    std::string problem(const Frame& frame) const { return log->problem.empty() ? frame.problem() : log->problem; }
+
     // What the stage's draw function gets.
     Scene scene(Frame& frame, int width, int height, const Camera& camera) const;
 

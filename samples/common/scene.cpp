@@ -14,19 +14,6 @@ namespace relief::samples {
 
 namespace {
 
-// The direction that a light at Unity's rotation (pitch, yaw, 0) shines towards is the turned forward vector; `dir`
-// points back at the light.
-glm::vec3 towardsLight(float pitch, float yaw)
-{
-    const glm::vec4 forward = rotationY(yaw) * (rotationX(pitch) * glm::vec4(0, 0, 1, 0));
-    return {-forward.x, -forward.y, -forward.z};
-}
-
-sampler2D sampler(const std::shared_ptr<const Texture>& texture, const Texture& missing)
-{
-    return {.texture = texture ? texture.get() : &missing};
-}
-
 // Fails where the user gives a file that the stage does not read; gives the path to load, or nothing.
 Expected<std::string> choose(const std::string& option, const std::string& input, const std::string& file)
 {
@@ -43,7 +30,7 @@ Expected<std::string> choose(const std::string& option, const std::string& input
 struct Load
 {
     std::string path;
-    const ImportSettings& settings;
+    ImportSettings settings;
     std::shared_ptr<const Texture>& texture;
     Expected<void> result = {};
 };
@@ -72,42 +59,35 @@ std::vector<Object> arranged(const std::string& names, float cubesTurnedBy)
 
 }  // namespace
 
-Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const InputFiles& files)
+Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const InputFiles& users)
 {
     auto loaded = std::make_unique<LoadedInputs>();
-    if (!files.mesh.empty() && inputs.mesh.empty()) {
-        return fail("--mesh " + files.mesh + ": this stage draws a fixed shape; leave the option out");
+    if (!users.mesh.empty() && inputs.mesh.empty()) {
+        return fail("--mesh " + users.mesh + ": this stage draws a fixed shape; leave the option out");
     }
-    if (isPrimitive(files.mesh)) {
-        loaded->objects = arranged(files.mesh, inputs.cubesTurnedBy);
-    } else if (!files.mesh.empty()) {
-        Expected<Mesh> mesh = readObj(files.mesh);
+    if (isPrimitive(users.mesh)) {
+        loaded->objects = arranged(users.mesh, inputs.cubesTurnedBy);
+    } else if (!users.mesh.empty()) {
+        Expected<Mesh> mesh = readObj(users.mesh);
         if (!mesh) return tl::unexpected(mesh.error());
         loaded->usersMesh = fitted(std::move(*mesh));
         loaded->objects = {{&*loaded->usersMesh, glm::mat4(1.0f)}};
     } else {
         loaded->objects = arranged(inputs.mesh.empty() ? "quad" : inputs.mesh, inputs.cubesTurnedBy);
     }
-    const ImportSettings albedo = {}, heights = {.colorSpace = ColorSpace::linear};
-    const Expected<ImportSettings> normal = withOptions(inputs.normalImport, files.import);
-    const Expected<ImportSettings> detailNormal = withOptions(inputs.detailNormalImport, files.import);
-    if (!normal) return tl::unexpected(normal.error());
-    if (!detailNormal) return tl::unexpected(detailNormal.error());
+    const std::array<const std::string*, kTextureOptions.size()> files = {&users.albedo, &users.height, &users.normal,
+                                                                          &users.detail, &users.detailNormal};
     std::vector<Load> loads;
-    const auto wanted = [&](const char* option, const std::string& input, const std::string& file,
-                            const ImportSettings& settings, std::shared_ptr<const Texture>& texture) -> Expected<void> {
-        return choose(option, input, file).map([&](const std::string& path) {
-            if (!path.empty()) loads.push_back({path, settings, texture});
-        });
-    };
-    for (const Expected<void>& result : {
-             wanted("albedo", inputs.albedo, files.albedo, albedo, loaded->albedo),
-             wanted("height", inputs.height, files.height, heights, loaded->height),
-             wanted("normal", inputs.normal, files.normal, *normal, loaded->normal),
-             wanted("detail", inputs.detail, files.detail, inputs.detailImport, loaded->detail),
-             wanted("detail-normal", inputs.detailNormal, files.detailNormal, *detailNormal, loaded->detailNormal),
-         }) {
-        if (!result) return tl::unexpected(result.error());
+    for (std::size_t slot = 0; slot < kTextureOptions.size(); ++slot) {
+        const auto& [file, settings] = inputs.textures[slot];
+        const Expected<std::string> path = choose(kTextureOptions[slot], file, *files[slot]);
+        if (!path) return tl::unexpected(path.error());
+        if (path->empty()) continue;
+        const bool isNormalMap = settings.kind == ImportSettings::Kind::normalMap;
+        const Expected<ImportSettings> chosen =
+            isNormalMap ? withOptions(settings, users.import) : Expected<ImportSettings>(settings);
+        if (!chosen) return tl::unexpected(chosen.error());
+        loads.push_back({*path, *chosen, loaded->textures[slot]});
     }
     // A thread for each: decoding is a good part of the time to the first picture.
     const auto count = static_cast<int>(loads.size());
@@ -131,53 +111,56 @@ void SceneLog::clear()
     }
     drawn.clear();
     notes.clear();
+    problem.clear();
     passesLeftOut = 0;
     kept.clear();
     textures.clear();
 }
 
-Scene::Scene(Frame& target, SceneLog& sceneLog, int w, int h, const Camera& camera, const LoadedInputs& inputs,
-             const std::vector<Property>& properties)
+Scene::Scene(Frame& target, SceneLog& sceneLog, int w, int h, const Camera& camera, const LoadedInputs& loaded,
+             const std::vector<Property>& chosen)
     : frame(target),
       width(w),
       height(h),
-      objects(inputs.objects),
-      mesh(*inputs.objects[0].mesh),
-      worldSpaceCameraPos(broadcast(camera.position)),
-      mainTex(sampler(inputs.albedo, Texture::white())),
-      heightMap(sampler(inputs.height, Texture::grey())),
-      normalMap(sampler(inputs.normal, Texture::flatNormal())),
-      detailTex(sampler(inputs.detail, Texture::grey())),
-      detailNormalMap(sampler(inputs.detailNormal, Texture::flatNormal())),
-      heightMap_TexelSize(texelSize(heightMap)),
+      objects(loaded.objects),
+      mesh(*loaded.objects[0].mesh),
       log(sceneLog),
-      usersMesh(inputs.usersMesh.has_value()),
-      clipFromWorld(clipFromView(camera, static_cast<float>(w) / static_cast<float>(h)) * viewFromWorld(camera))
+      clipFromWorld(clipFromView(camera, static_cast<float>(w) / static_cast<float>(h)) * viewFromWorld(camera)),
+      cameraPosition(camera.position),
+      properties(chosen),
+      inputs(loaded)
 {
     cutStrip(0.0f, 1.0f);
-    for (const Property& p : properties) values[p.name] = p.value;
-    const auto angle = [this](const char* name) { return values.count(name) != 0 ? values.at(name).x : 0.0f; };
-    light.color = float3(1.0f, 0.957f, 0.839f);  // Unity's default directional light, intensity 1
-    light.dir = broadcast(towardsLight(angle("lightPitch"), angle("lightYaw")));
 }
 
-float4 Scene::vector(const std::string& name) const
+glm::vec4 Scene::value(const Declaration& declaration) const
 {
-    return broadcast(values.at(name));
-}
-Float Scene::number(const std::string& name) const
-{
-    return values.at(name).x;
-}
-
-ObjectTransform Scene::object(const glm::mat4& worldFromObject) const
-{
-    return {clipFromWorld, worldFromObject};
+    for (const Property& p : properties) {
+        if (p.name == declaration.name) return p.value;
+    }
+    log.problem = std::string("uniform '") + declaration.name +
+                  "' is of a struct that the stage does not list: add it to .uniforms = declared<...>()";
+    return declaration.value;
 }
 
-ObjectTransform Scene::lying() const
+sampler2D Scene::texture(TextureSlot slot, const char*, const ImportSettings&) const
 {
-    return object(usersMesh ? glm::mat4(1.0f) : kLying);
+    const Texture* const loaded = inputs.textures[static_cast<std::size_t>(slot)].get();
+    const bool normals = slot == TextureSlot::normal || slot == TextureSlot::detailNormal;
+    const Texture& missing = slot == TextureSlot::albedo ? Texture::white()
+                             : normals                   ? Texture::flatNormal()
+                                                         : Texture::grey();
+    return {.texture = loaded != nullptr ? loaded : &missing};
+}
+
+Uniforms Scene::uniforms(const glm::mat4& worldFromObject) const
+{
+    return {.source = this, .object = {clipFromWorld, worldFromObject}, .worldSpaceCameraPos = cameraPosition};
+}
+
+Object Scene::lying() const
+{
+    return {&mesh, inputs.usersMesh ? glm::mat4(1.0f) : kLying};
 }
 
 const Mesh& Scene::keep(Mesh made) const
@@ -285,82 +268,6 @@ void Scene::cutCell(int column, int columns, int row, int rows) const
     const int left = column * width / columns, right = (column + 1) * width / columns;
     const int top = row * height / rows, bottom = (row + 1) * height / rows;
     cut({(left + right - width) / 2, (top + bottom - height) / 2, width, height}, {left, top, right, bottom});
-}
-
-std::vector<Property> joined(std::vector<Property> first, const std::vector<Property>& more)
-{
-    first.insert(first.end(), more.begin(), more.end());
-    return first;
-}
-
-std::vector<Property> lightAngles(float pitch, float yaw)
-{
-    return {{"lightPitch", glm::vec4(pitch), -180.0f, 180.0f, 1, "the light's rotation about X, degrees"},
-            {"lightYaw", glm::vec4(yaw), -180.0f, 180.0f, 1, "the light's rotation about Y, degrees"}};
-}
-
-std::vector<Property> litProperties(const std::vector<Property>& more)
-{
-    const std::vector<Property> material = {
-        {"tint", glm::vec4(1.0f), 0.0f, 1.0f, 4, "colour that the albedo is multiplied by"},
-        {"mainTex_ST", {1, 1, 0, 0}, -16.0f, 16.0f, 4, "tiling in x and y, offset in z and w"},
-        {"metallic", glm::vec4(0.0f), 0.0f, 1.0f, 1, "0 dielectric, 1 metal"},
-        {"smoothness", glm::vec4(0.1f), 0.0f, 1.0f, 1, "0 matte, 1 polished"},
-    };
-    return joined(joined(material, lightAngles(35.0f, -20.0f)), more);
-}
-
-Property bumpScaleProperty()
-{
-    return {"bumpScale", glm::vec4(5.0f), -32.0f, 32.0f, 1, "texels that the height map's whole range is high"};
-}
-
-Property mapScaleProperty(const std::string& name, float value)
-{
-    return {name, glm::vec4(value), -32.0f, 32.0f, 1, "the bumps' strength; 1: as the map was made"};
-}
-
-Property detailTilingProperty()
-{
-    return {"detailTex_ST", {3, 3, 0, 0}, -64.0f, 64.0f, 4, "tiling and offset of both detail textures"};
-}
-
-Property binormalPerFragmentProperty(float value)
-{
-    return {"binormalPerFragment", glm::vec4(value), 0.0f, 2.0f, 1, "0: per vertex, 1: per fragment, 2: both (1.24)"};
-}
-
-ImportSettings normalMapSettings(float bumpiness, bool fadeOutMips)
-{
-    return {.kind = ImportSettings::Kind::normalMap,
-            .storage = ImportSettings::Storage::dxt5nm,
-            .bumpiness = bumpiness,
-            .fadeOutMips = fadeOutMips,
-            .fadeFirst = 2,
-            .fadeLast = 5};
-}
-
-Inputs detailedMarble(const std::string& mesh)
-{
-    return {.mesh = mesh,
-            .albedo = "marble-albedo.png",
-            .normal = "marble-heights.png",
-            .detail = "marble-detail.png",
-            .detailNormal = "marble-detail.png",
-            .detailImport = {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5},
-            .detailNormalImport = normalMapSettings(0.1f, true)};
-}
-
-Inputs bare(const std::string& mesh)
-{
-    return {.mesh = mesh, .albedo = kNone, .normal = kNone, .detail = kNone, .detailNormal = kNone};
-}
-
-std::vector<Property> detailedProperties(const std::vector<Property>& more)
-{
-    return joined(litProperties({mapScaleProperty("bumpScale", 0.5f), detailTilingProperty(),
-                                 mapScaleProperty("detailBumpScale", 0.5f)}),
-                  more);
 }
 
 }  // namespace relief::samples

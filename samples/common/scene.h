@@ -1,5 +1,4 @@
-// What a stage's draw function gets: the frame, and everything that is not the lesson, ready to be put into the fields
-// of its programs: matrices, camera, light, textures and the values of the stage's properties.
+// What a stage's draw function gets: the frame, the objects, and the uniforms of its programs.
 #pragma once
 
 #include <deque>
@@ -12,48 +11,17 @@
 
 #include "common/camera.h"
 #include "common/input_files.h"
-#include "relief.h"
-#include "shading/lights.h"
+#include "common/uniforms.h"
 #include "shading/normals.h"
-#include "shading/object_transform.h"
 #include "shading/tangent_space.h"
-#include "texture/import.h"
 
 namespace relief::samples {
-
-// A number, colour or vector that the user may change: --set name=value, or the arrow keys in the window. Ranges and
-// defaults are the tutorial's.
-struct Property
-{
-    std::string name;
-    glm::vec4 value{0.0f};
-    float minimum = 0.0f, maximum = 1.0f;
-    int components = 1;
-    std::string meaning;
-};
-
-// What a stage reads from files: the default's name in assets/; empty: the stage has no such input; `none`: it has one,
-// but nothing is in it by default. The import settings are those of Unity's inspector.
-inline constexpr const char* kNone = "none";
-
-// A normal map as DXT5nm: of a grey picture's heights, or of a picture of normals.
-ImportSettings normalMapSettings(float bumpiness, bool fadeOutMips = false);
-
-struct Inputs
-{
-    std::string mesh;  // "quad", "cube", "sphere", "terrain"; several with + between them stand side by side
-    std::string albedo, height, normal, detail, detailNormal;
-    float cubesTurnedBy = 35.0f;  // degrees about Y, where there are several shapes
-    ImportSettings normalImport = normalMapSettings(0.05f);
-    ImportSettings detailImport = {};
-    ImportSettings detailNormalImport = normalMapSettings(0.1f);
-};
 
 // A mesh and where it stands.
 struct Object
 {
     const Mesh* mesh;
-    glm::mat4 worldFromObject;
+    glm::mat4 worldFromObject{1.0f};
 };
 
 // The loaded inputs; they outlive the frames that use them.
@@ -61,7 +29,7 @@ struct LoadedInputs
 {
     std::optional<Mesh> usersMesh;
     std::vector<Object> objects;  // the user's mesh alone, or the stage's
-    std::shared_ptr<const Texture> albedo, height, normal, detail, detailNormal;
+    std::array<std::shared_ptr<const Texture>, kTextureOptions.size()> textures;  // by TextureSlot
 };
 
 // Loads what a stage reads. A file that cannot be read, or that the stage has no input for, is an error naming it.
@@ -79,6 +47,7 @@ struct SceneLog
     };
     std::vector<Drawn> drawn;
     std::vector<std::string> notes;  // what was left out, and what was measured; for explain
+    std::string problem;             // with the stage itself, one line
     int passesLeftOut = 0;           // by Scene::reaches
     std::deque<Mesh> kept;           // meshes that the scene made
 
@@ -96,7 +65,7 @@ struct SceneLog
 
 struct TangentSpaceVisualizer;
 
-class Scene
+class Scene : private UniformSource
 {
 public:
     Scene(Frame& frame, SceneLog& log, int width, int height, const Camera& camera, const LoadedInputs& inputs,
@@ -107,19 +76,15 @@ public:
     const std::vector<Object>& objects;
     const Mesh& mesh;  // the first object's
 
-    // Uniforms, under Unity's names without their underscores.
-    float3 worldSpaceCameraPos;
-    UnityLight light;  // directional, turned by the properties lightPitch and lightYaw
-    sampler2D mainTex, heightMap, normalMap, detailTex, detailNormalMap;
-    float4 heightMap_TexelSize;
+    // The uniforms of an object, for any struct that is derived from Uniforms. At the origin: those of no object.
+    Uniforms uniforms(const glm::mat4& worldFromObject = glm::mat4(1.0f)) const;
 
-    // A property's value in every lane.
-    float4 vector(const std::string& name) const;
-    Float number(const std::string& name) const;
+    // The first object, laid flat and facing up; a mesh of the user's as it is.
+    Object lying() const;
 
-    // The matrices of an object. lying() lays the quad flat, facing up; a mesh of the user's stands as it is.
-    ObjectTransform object(const glm::mat4& worldFromObject) const;
-    ObjectTransform lying() const;
+    // Draws an object with programs that need no more than its uniforms.
+    template <class VertexProgram, class FragmentProgram>
+    void draw(const Object& object, const RenderState& state = {}) const;
 
     // Frame::draw. A mesh without uv or tangents gets them here, if the vertex program reads any, and a mirrored object
     // its front faces.
@@ -155,11 +120,15 @@ private:
     const Mesh& prepare(const Mesh& drawn, std::span<const Field> vertexData, const float4x4* worldFromObject) const;
     void cut(const Viewport& viewport, const Rectangle& scissor) const;
     void leftOut(const std::string& name, const Object& object) const;
+    glm::vec4 value(const Declaration& declaration) const override;
+    sampler2D texture(TextureSlot slot, const char* file, const ImportSettings& settings) const override;
 
     SceneLog& log;
     bool usersMesh;
     glm::mat4 clipFromWorld;
-    std::map<std::string, glm::vec4> values;
+    glm::vec3 cameraPosition;
+    const std::vector<Property>& properties;
+    const LoadedInputs& inputs;
 };
 
 template <class VertexProgram, class FragmentProgram>
@@ -174,6 +143,27 @@ void Scene::draw(const Mesh& drawnMesh, const VertexProgram& vertexProgram, cons
     frame.draw(complete, vertexProgram, fragmentProgram, state);
 }
 
+namespace detail {
+
+// A program without uniforms is made of nothing.
+template <class Program>
+Program programOf(const Uniforms& uniforms)
+{
+    if constexpr (std::is_base_of_v<Uniforms, Program>)
+        return uniforms;
+    else
+        return {};
+}
+
+}  // namespace detail
+
+template <class VertexProgram, class FragmentProgram>
+void Scene::draw(const Object& object, const RenderState& state) const
+{
+    const Uniforms its = uniforms(object.worldFromObject);
+    draw(*object.mesh, detail::programOf<VertexProgram>(its), detail::programOf<FragmentProgram>(its), state);
+}
+
 template <class Light>
 bool Scene::reaches(const std::string& name, const Light& source, const Object& object) const
 {
@@ -182,28 +172,7 @@ bool Scene::reaches(const std::string& name, const Light& source, const Object& 
     return reached;
 }
 
-// One list after the other; and the light's two angles.
-std::vector<Property> joined(std::vector<Property> first, const std::vector<Property>& more);
-std::vector<Property> lightAngles(float pitch, float yaw);
-
-// The properties of Rendering 5's material, on which all of "Bumpiness" builds, and the light's two angles.
-std::vector<Property> litProperties(const std::vector<Property>& more = {});
-
-// The height of the bumps: how many texels high the whole range of the height map is. Resolution changes the look
-// unless this grows with it, which is what the tutorial's "replace delta by 1" hides.
-Property bumpScaleProperty();
-
-// Of a finished normal map, as the tutorial's Bump Scale: 1 takes it as it is.
-Property mapScaleProperty(const std::string& name, float value);
-Property detailTilingProperty();
-
 // Where the binormal is computed: the default is the CMake option RELIEF_BINORMAL_PER_FRAGMENT.
 inline constexpr bool kBinormalPerFragment = RELIEF_BINORMAL_PER_FRAGMENT != 0;
-Property binormalPerFragmentProperty(float value);
-
-// What the stages from 1.19 on share: the marble with its normals, detail and detail normals, and their properties.
-Inputs detailedMarble(const std::string& mesh);
-Inputs bare(const std::string& mesh);  // the same inputs, with nothing in them
-std::vector<Property> detailedProperties(const std::vector<Property>& more = {});
 
 }  // namespace relief::samples

@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "common/phong_properties.h"
+#include "common/materials.h"
 #include "common/scene.h"
-#include "common/triplanar_properties.h"
 
 namespace relief::samples {
 
@@ -17,8 +16,9 @@ struct Stage
     std::string title;
     std::string section;  // of the tutorial
     std::string news;     // what is new, in one line
-    std::vector<Property> properties;
-    Inputs inputs;
+    Declared uniforms;    // declared<MyVertexProgram, MyFragmentProgram>()
+    std::string mesh;     // as in Inputs; empty: the stage draws a shape of its own
+    float cubesTurnedBy = Inputs().cubesTurnedBy;
     Camera camera;
     std::function<void(const Scene&)> draw;
 
@@ -27,6 +27,15 @@ struct Stage
     std::string stem;      // "06_rotated_tangent"
     std::string folder;    // "bumpiness"
     std::string tutorial;  // "Rendering 6, Bumpiness (Catlike Coding)"
+
+    // All that it reads from files.
+    Inputs inputs() const
+    {
+        Inputs all = uniforms.inputs;
+        all.mesh = mesh;
+        all.cubesTurnedBy = cubesTurnedBy;
+        return all;
+    }
 };
 
 // All stages, in the order of the book. Built once.

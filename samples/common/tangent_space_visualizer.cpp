@@ -66,7 +66,7 @@ void TangentSpaceVisualizer::ShowTangentSpace(const Scene& s, const Mesh& shown,
     }
 
     constexpr RenderState kLines = {.primitive = Primitive::lines};
-    const LineVertexProgram program{s.object(glm::mat4(1.0f))};
+    const LineVertexProgram program{s.uniforms().object};
     s.draw(s.keep(std::move(normals.mesh)), program, LineFragmentProgram{{0, 1, 0}}, kLines);
     s.draw(s.keep(std::move(tangents.mesh)), program, LineFragmentProgram{{1, 0, 0}}, kLines);
     s.draw(s.keep(std::move(binormals.mesh)), program, LineFragmentProgram{{0, 0, 1}}, kLines);

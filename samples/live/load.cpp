@@ -20,14 +20,15 @@ Expected<LoadedStage> loadObject(const std::string& object, const StageSource& s
     }
     const auto* const function = static_cast<Stage (*const*)()>(::dlsym(handle, "relief_stage"));
     const auto* const programs =
-        static_cast<const detail::CompiledPrograms* const* const*>(::dlsym(handle, "relief_programs"));
+        static_cast<const relief::detail::CompiledPrograms* const* const*>(::dlsym(handle, "relief_programs"));
     if (function == nullptr || programs == nullptr) return fail(object + ": is no compiled stage");
     LoadedStage loaded{.stage = (*function)(), .programs = {}};
     loaded.stage.id = source.id.empty() ? source.stem : source.id;
     loaded.stage.stem = source.stem;
     loaded.stage.folder = source.folder;
     loaded.stage.tutorial = source.tutorial;
-    for (const detail::CompiledPrograms* p = **programs; p != nullptr; p = p->next) loaded.programs.push_back(p->id);
+    for (const relief::detail::CompiledPrograms* p = **programs; p != nullptr; p = p->next)
+        loaded.programs.push_back(p->id);
     return loaded;
 }
 

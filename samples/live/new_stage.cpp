@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <regex>
 
 #include "live/compile.h"
 #include "live/watch.h"
@@ -49,6 +50,8 @@ Expected<void> writeNewStage(const std::string& path, const std::string& from)
     if (function.empty()) return fail(source + ": has no function `Stage NAME()` at the beginning of a line");
     replaceAll(*text, " " + function + "()", " " + asFunction(file.stem().string()) + "()");
     if (from.empty()) replaceAll(*text, "@file@", path);
+    if (!from.empty())
+        *text = std::regex_replace(*text, std::regex(" +// new\n"), "\n");  // against the book's stage before
     if (!from.empty())
         text->insert(0, "// " + path + ", from " + from + ". `./relief view " + path +
                             "` shows it, and shows it again whenever this file is saved.\n//\n");

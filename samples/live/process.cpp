@@ -16,6 +16,7 @@
 
 #include "check/hash.h"
 #include "common/baked_sphere.h"
+#include "common/inside.h"
 #include "common/render.h"
 #include "live/load.h"
 
@@ -36,13 +37,13 @@ void get(Message& m, InputFiles& f)
 
 void put(Message& m, const Inputs& i)
 {
-    for (const std::string* s : {&i.mesh, &i.albedo, &i.height, &i.normal, &i.detail, &i.detailNormal}) m.put(*s);
-    m.put(i.cubesTurnedBy).put(i.normalImport).put(i.detailImport).put(i.detailNormalImport);
+    m.put(i.mesh).put(i.cubesTurnedBy);
+    for (const auto& [file, settings] : i.textures) m.put(file).put(settings);
 }
 void get(Message& m, Inputs& i)
 {
-    for (std::string* s : {&i.mesh, &i.albedo, &i.height, &i.normal, &i.detail, &i.detailNormal}) m.get(*s);
-    m.get(i.cubesTurnedBy).get(i.normalImport).get(i.detailImport).get(i.detailNormalImport);
+    m.get(i.mesh).get(i.cubesTurnedBy);
+    for (auto& [file, settings] : i.textures) m.get(file).get(settings);
 }
 
 void put(Message& m, const Look& l)
@@ -50,7 +51,7 @@ void put(Message& m, const Look& l)
     m.put(l.width).put(l.height).put(l.camera.has_value()).put(l.camera.value_or(Camera{})).put(l.settings);
     put(m, l.files);
     m.put(l.threads).put(l.tileSize).put(l.showTangents).put(l.tangentScale).put(l.tangentOffset).put(l.hash);
-    m.put(l.strict);
+    m.put(l.strict).put(l.show);
 }
 void get(Message& m, Look& l)
 {
@@ -60,19 +61,33 @@ void get(Message& m, Look& l)
     if (hasCamera) l.camera = camera;
     get(m, l.files);
     m.get(l.threads).get(l.tileSize).get(l.showTangents).get(l.tangentScale).get(l.tangentOffset).get(l.hash);
-    m.get(l.strict);
+    m.get(l.strict).get(l.show);
+}
+
+void put(Message& m, const std::vector<ViewName>& views)
+{
+    m.put(views.size());
+    for (const ViewName& view : views) m.put(view.name).put(view.meaning);
+}
+void get(Message& m, std::vector<ViewName>& views)
+{
+    std::size_t count = 0;
+    m.get(count);
+    views.resize(count <= m.bytes.size() ? count : 0);
+    for (ViewName& view : views) m.get(view.name).get(view.meaning);
 }
 
 void put(Message& m, const Description& d)
 {
     const Stage& s = d.stage;
     for (const std::string* t : {&s.title, &s.section, &s.news, &s.id, &s.stem, &s.folder, &s.tutorial}) m.put(*t);
-    m.put(s.properties.size());
-    for (const Property& p : s.properties) {
-        m.put(p.name).put(p.value).put(p.minimum).put(p.maximum).put(p.components).put(p.meaning);
+    m.put(s.uniforms.properties.size());
+    for (const Property& p : s.uniforms.properties) {
+        m.put(p.name).put(p.kind).put(p.components).put(p.value).put(p.minimum).put(p.maximum);
+        m.put(p.meaning).put(p.choices);
     }
-    put(m, s.inputs);
-    m.put(s.camera).put(d.programs);
+    put(m, s.uniforms.inputs);
+    m.put(s.mesh).put(s.cubesTurnedBy).put(s.camera).put(d.programs);
 }
 void get(Message& m, Description& d)
 {
@@ -81,11 +96,12 @@ void get(Message& m, Description& d)
     std::size_t properties = 0;
     m.get(properties);
     for (std::size_t i = 0; i < properties && i < m.bytes.size(); ++i) {
-        Property& p = s.properties.emplace_back();
-        m.get(p.name).get(p.value).get(p.minimum).get(p.maximum).get(p.components).get(p.meaning);
+        Property& p = s.uniforms.properties.emplace_back();
+        m.get(p.name).get(p.kind).get(p.components).get(p.value).get(p.minimum).get(p.maximum);
+        m.get(p.meaning).get(p.choices);
     }
-    get(m, s.inputs);
-    m.get(s.camera).get(d.programs);
+    get(m, s.uniforms.inputs);
+    m.get(s.mesh).get(s.cubesTurnedBy).get(s.camera).get(d.programs);
 }
 
 bool send(int socket, const Message& message, std::span<const int> descriptors)
@@ -205,7 +221,7 @@ std::vector<std::string> fitting(const Stage& stage, const std::vector<std::stri
 {
     Stage bare;
     bare.id = stage.id;
-    bare.properties = stage.properties;
+    bare.uniforms.properties = stage.uniforms.properties;
     std::vector<std::string> known;
     for (const std::string& setting : settings) {
         if (PreparedStage::prepare(bare, {setting})) known.push_back(setting);
@@ -227,6 +243,7 @@ struct Drawing
     int threads = 0, tileSize = 0;  // the frame's
 
     Expected<Drawn> draw(const Look& look);
+    std::vector<ViewName> views() const;  // of the last frame
     Expected<void> prepare(const Look& look);
     bool map(std::size_t bytes);
 };
@@ -238,7 +255,7 @@ Expected<void> Drawing::prepare(const Look& look)
     const bool keep = prepared && files == look.files;
     Stage bare;
     bare.id = stage.id;
-    bare.properties = stage.properties;
+    bare.uniforms.properties = stage.uniforms.properties;
     Expected<PreparedStage> made =
         PreparedStage::prepare(keep ? bare : stage, settings, keep ? InputFiles{} : look.files);
     if (!made) return tl::unexpected(made.error());
@@ -284,10 +301,13 @@ Expected<Drawn> Drawing::draw(const Look& look)
     Drawn drawn{.width = look.width, .height = look.height, .camera = prepared->camera()};
     const auto begin = std::chrono::steady_clock::now();
     prepared->record(*frame, look.width, look.height);
-    drawn.statistics = frame->run();
+    const bool isThere = look.strict || look.show.empty() || findView(*frame, look.show);
+    const Expected<Statistics> statistics = runInside(*frame, *target, isThere ? look.show : "");
+    if (!statistics) return tl::unexpected(statistics.error());
+    drawn.statistics = *statistics;
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
     drawn.milliseconds = time.count();
-    if (!frame->problem().empty()) return fail(frame->problem());
+    if (const std::string problem = prepared->problem(*frame); !problem.empty()) return fail(problem);
     std::memcpy(picture, target->color8().data(), pixels * sizeof(std::uint32_t));
     if (look.hash) {
         Expected<Framebuffer> exact = Framebuffer::create(look.width, look.height, Format::rgba32f, Store::keep);
@@ -298,6 +318,13 @@ Expected<Drawn> Drawing::draw(const Look& look)
         drawn.hash = hashOf(*exact);
     }
     return drawn;
+}
+
+std::vector<ViewName> Drawing::views() const
+{
+    std::vector<ViewName> names;
+    for (const View& view : viewsOf(*frame)) names.push_back({view.name, view.meaning});
+    return names;
 }
 
 [[noreturn]] void runRenderer(int socket, int memory, const std::string& object, const StageSource& source)
@@ -326,8 +353,13 @@ Expected<Drawn> Drawing::draw(const Look& look)
         Look look;
         get(request, look);
         const Expected<Drawn> drawn = drawing.draw(look);
-        send(socket, drawn ? Message(Message::Kind::drawn).put(*drawn)
-                           : Message(Message::Kind::refused).put(drawn.error().message));
+        Message answer(drawn ? Message::Kind::drawn : Message::Kind::refused);
+        if (drawn) {
+            put(answer.put(*drawn), drawing.views());
+        } else {
+            answer.put(drawn.error().message);
+        }
+        send(socket, answer);
     }
     ::_exit(0);  // the learner's static destructors are not run
 }
@@ -336,7 +368,7 @@ Expected<Drawn> Drawing::draw(const Look& look)
 
 void buildAllLevels(const LoadedInputs& inputs)
 {
-    for (const auto& texture : {inputs.albedo, inputs.height, inputs.normal, inputs.detail, inputs.detailNormal}) {
+    for (const auto& texture : inputs.textures) {
         if (texture) texture->level(texture->levelCount() - 1);
     }
 }

@@ -25,6 +25,8 @@ void put(Message& message, const Inputs& inputs);
 void get(Message& message, Inputs& inputs);
 void put(Message& message, const Look& look);
 void get(Message& message, Look& look);
+void put(Message& message, const std::vector<ViewName>& views);
+void get(Message& message, std::vector<ViewName>& views);
 void put(Message& message, const Description& description);
 void get(Message& message, Description& description);
 

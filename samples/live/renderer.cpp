@@ -280,6 +280,7 @@ Renderer::News Renderer::poll()
                 break;
             case Message::Kind::drawn:
                 message.get(news.drawn.emplace());
+                get(message, news.views);
                 millisecondsPerPixel = news.drawn->milliseconds / (static_cast<double>(last.width) * last.height);
                 asked = false;
                 break;

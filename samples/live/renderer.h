@@ -32,11 +32,19 @@ struct Look
     int threads = 0, tileSize = 64;
     bool showTangents = false;
     float tangentScale = 0.1f, tangentOffset = 0.01f;
+    std::string show;   // a view of the frame, by name (common/inside.h); empty: its picture
     bool hash = false;  // of the float colours and depths too: draws twice
 
-    // A setting that the stage does not know or that is out of its range is an error, or else left out: after a new
-    // version, whose properties may be others.
+    // A setting or view that the stage does not know, or a setting out of its range, is an error, or else left out:
+    // after a new version, whose properties may be others.
     bool strict = true;
+};
+
+// A view that the frame has, for Look::show.
+struct ViewName
+{
+    std::string name, meaning;
+    bool operator==(const ViewName&) const = default;
 };
 
 // A stage as another process knows it: everything but what it draws.
@@ -44,6 +52,7 @@ struct Description
 {
     Stage stage;  // without `draw`
     std::vector<std::uint64_t> programs;
+    std::vector<ViewName> views;  // of the last picture: which there are may follow from settings and files
 };
 
 struct Drawn
@@ -78,6 +87,7 @@ public:
     {
         std::optional<Description> loaded;
         std::optional<Drawn> drawn;
+        std::vector<ViewName> views;         // of what was drawn
         std::optional<std::string> refused;  // one line; the renderer goes on
         std::optional<Failure> failure;      // it is gone
     };

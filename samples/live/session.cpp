@@ -178,7 +178,7 @@ void Session::hear(std::unique_ptr<Renderer>& renderer, News& news)
             currentVersion = version;
             description = std::move(incomingDescription);
             lastGood = current->object();
-            maker.preload(description->stage.inputs, wanted.files, text.find("bakedSphere()") != std::string::npos);
+            maker.preload(description->stage.inputs(), wanted.files, text.find("bakedSphere()") != std::string::npos);
             trouble.reset();
             news.stage = news.problem = true;
         }
@@ -188,6 +188,10 @@ void Session::hear(std::unique_ptr<Renderer>& renderer, News& news)
             newTimes.draw = heard.drawn->milliseconds;
             newTimes.load = milliseconds(Watch::Clock::now() - stamp) - newTimes.draw;
             lastTimes = newTimes;
+        }
+        if (description && description->views != heard.views) {
+            description->views = std::move(heard.views);
+            news.stage = true;
         }
         if (waiting) {
             waiting = false;

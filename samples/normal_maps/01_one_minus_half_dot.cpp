@@ -4,19 +4,16 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct vertexInput
-{
+struct vertexInput {
     POSITION vertex;
     NORMAL normal;
     TEXCOORD<0, float4> texcoord;
     TANGENT tangent;
 };
 
-struct vertexOutput
-{
+struct vertexOutput {
     SV_POSITION pos;
     TEXCOORD<0, float4> tex;
     TEXCOORD<1, float4> posWorld;
@@ -25,12 +22,8 @@ struct vertexOutput
     TEXCOORD<4, float3> binormalWorld;
 };
 
-struct vert
-{
-    ObjectTransform object;
-
-    vertexOutput operator()(vertexInput v) const
-    {
+struct vert : Uniforms {
+    vertexOutput operator()(vertexInput v) const {
         vertexOutput o;
         o.tangentWorld = UnityObjectToWorldDir(object, v.tangent.xyz());
         o.normalWorld = UnityObjectToWorldNormal(object, v.normal);
@@ -42,16 +35,8 @@ struct vert
     }
 };
 
-struct frag
-{
-    float3 worldSpaceCameraPos, ambient, lightColor0;
-    float4 worldSpaceLightPos0;  // of a directional light: towards it, and w = 0
-    sampler2D bumpMap;
-    float4 bumpMap_ST, color, specColor;
-    Float shininess;
-
-    float4 operator()(vertexOutput i) const
-    {
+struct frag : CgMaterial {
+    float4 operator()(vertexOutput i) const {
         const float3 viewDirection = normalize(worldSpaceCameraPos - i.posWorld.xyz());
         const float3 lightDirection = normalize(worldSpaceLightPos0.xyz());
         const Float atten = 1.0f;
@@ -73,21 +58,14 @@ struct frag
 
 }  // namespace
 
-Stage normal_maps_01_one_minus_half_dot()
-{
+Stage normal_maps_01_one_minus_half_dot() {
     return {.title = "One minus half dot",
             .section = "7, fragment program",
             .news = "A normal map's z without a root, and a sphere in Phong's light.",
-            .properties = cgProperties(),
-            .inputs = {.mesh = "sphere", .normal = "marble-heights.png"},
+            .uniforms = declared<frag>(),
+            .mesh = "sphere",
             .camera = {.position = {0.0f, 0.3f, -1.8f}},
-            .draw = [](const Scene& s) {
-                const float3 lightColor0 = s.light.color * s.number("lightStrength");
-                s.draw(s.mesh, vert{s.object(s.objects[0].worldFromObject)},
-                       frag{s.worldSpaceCameraPos, s.vector("ambient").rgb(), lightColor0, float4(s.light.dir, 0.0f),
-                            s.normalMap, s.vector("bumpMap_ST"), s.vector("color"), s.vector("specColor"),
-                            s.number("shininess")});
-            }};
+            .draw = [](const Scene& s) { s.draw<vert, frag>(s.objects[0]); }};
 }
 
 }  // namespace relief::samples

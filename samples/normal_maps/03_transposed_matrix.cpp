@@ -4,19 +4,16 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct vertexInput
-{
+struct vertexInput {
     POSITION vertex;
     NORMAL normal;
     TEXCOORD<0, float4> texcoord;
     TANGENT tangent;
 };
 
-struct vertexOutput
-{
+struct vertexOutput {
     SV_POSITION pos;
     TEXCOORD<0, float4> tex;
     TEXCOORD<1, float4> posWorld;
@@ -25,12 +22,8 @@ struct vertexOutput
     TEXCOORD<4, float3> binormalWorld;
 };
 
-struct vert
-{
-    ObjectTransform object;
-
-    vertexOutput operator()(vertexInput v) const
-    {
+struct vert : Uniforms {
+    vertexOutput operator()(vertexInput v) const {
         vertexOutput o;
         o.tangentWorld = UnityObjectToWorldDir(object, v.tangent.xyz());
         o.normalWorld = UnityObjectToWorldNormal(object, v.normal);
@@ -42,16 +35,10 @@ struct vert
     }
 };
 
-struct frag
-{
-    float3 worldSpaceCameraPos, ambient, lightColor0;
-    float4 worldSpaceLightPos0;  // of a directional light: towards it, and w = 0
-    sampler2D bumpMap;
-    float4 bumpMap_ST, color, specColor;
-    Float shininess, bumpDepth;
+struct frag : CgMaterial {
+    Float bumpDepth = number("bumpDepth", 1.0f, {0, 8}, "z of all normals; 0 is the bumpiest");
 
-    float4 operator()(vertexOutput i) const
-    {
+    float4 operator()(vertexOutput i) const {
         const float3 viewDirection = normalize(worldSpaceCameraPos - i.posWorld.xyz());
         const float3 lightDirection = normalize(worldSpaceLightPos0.xyz());
         const Float atten = 1.0f;
@@ -60,7 +47,7 @@ struct frag
         float3 localCoords = float3(2.0f * texN.ag() - 1.0f, 0.0f);
         localCoords.z = bumpDepth;
         const float3x3 local2WorldTranspose = transpose(float3x3(i.tangentWorld, i.binormalWorld, i.normalWorld));
-        const float3 normalDirection = normalize(mul(localCoords, local2WorldTranspose));
+        const float3 normalDirection = normalize(mul(localCoords, local2WorldTranspose));  // new
 
         const float3 diffuseReflection = atten * lightColor0 * saturate(dot(normalDirection, lightDirection));
         const Float highlight = saturate(dot(reflect(-lightDirection, normalDirection), viewDirection));
@@ -73,22 +60,14 @@ struct frag
 
 }  // namespace
 
-Stage normal_maps_03_transposed_matrix()
-{
+Stage normal_maps_03_transposed_matrix() {
     return {.title = "Transposed matrix",
             .section = "7, fragment program",
             .news = "To the world by a matrix with the rows tangent, binormal and normal.",
-            .properties =
-                cgProperties({{"bumpDepth", glm::vec4(1.0f), 0.0f, 8.0f, 1, "z of all normals; 0 is the bumpiest"}}),
-            .inputs = {.mesh = "sphere", .normal = "marble-heights.png"},
+            .uniforms = declared<frag>(),
+            .mesh = "sphere",
             .camera = {.position = {0.0f, 0.3f, -1.8f}},
-            .draw = [](const Scene& s) {
-                const float3 lightColor0 = s.light.color * s.number("lightStrength");
-                s.draw(s.mesh, vert{s.object(s.objects[0].worldFromObject)},
-                       frag{s.worldSpaceCameraPos, s.vector("ambient").rgb(), lightColor0, float4(s.light.dir, 0.0f),
-                            s.normalMap, s.vector("bumpMap_ST"), s.vector("color"), s.vector("specColor"),
-                            s.number("shininess"), s.number("bumpDepth")});
-            }};
+            .draw = [](const Scene& s) { s.draw<vert, frag>(s.objects[0]); }};
 }
 
 }  // namespace relief::samples

@@ -4,19 +4,16 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct vertexInput
-{
+struct vertexInput {
     POSITION vertex;
     NORMAL normal;
     TEXCOORD<0, float4> texcoord;
     TANGENT tangent;
 };
 
-struct vertexOutput
-{
+struct vertexOutput {
     SV_POSITION pos;
     TEXCOORD<0, float4> tex;
     TEXCOORD<1, float4> posWorld;
@@ -25,12 +22,8 @@ struct vertexOutput
     TEXCOORD<4, float3> binormalWorld;
 };
 
-struct vert
-{
-    ObjectTransform object;
-
-    vertexOutput operator()(vertexInput v) const
-    {
+struct vert : Uniforms {
+    vertexOutput operator()(vertexInput v) const {
         vertexOutput o;
         o.tangentWorld = UnityObjectToWorldDir(object, v.tangent.xyz());
         o.normalWorld = UnityObjectToWorldNormal(object, v.normal);
@@ -42,16 +35,12 @@ struct vert
     }
 };
 
-struct frag
-{
-    float3 worldSpaceCameraPos, ambient, lightColor0;
-    float4 worldSpaceLightPos0;  // of a directional light: towards it, and w = 0
-    sampler2D bumpMap;
-    float4 bumpMap_ST, color, specColor, rimColor;
-    Float shininess, rimPower, bumpDepth;
+struct frag : CgMaterial {
+    float4 rimColor = rgba("rimColor", glm::vec4(1.0f), "Rim Color");                        // new
+    Float rimPower = number("rimPower", 3.0f, {0.1f, 10}, "Rim Power: larger is narrower");  // new
+    Float bumpDepth = number("bumpDepth", 1.0f, {0, 8}, "z of all normals; 0 is the bumpiest");
 
-    float4 operator()(vertexOutput i) const
-    {
+    float4 operator()(vertexOutput i) const {
         const float3 viewDirection = normalize(worldSpaceCameraPos - i.posWorld.xyz());
         const float3 lightDirection = normalize(worldSpaceLightPos0.xyz());
         const Float atten = 1.0f;
@@ -65,33 +54,23 @@ struct frag
         const float3 diffuseReflection = atten * lightColor0 * saturate(dot(normalDirection, lightDirection));
         const Float highlight = saturate(dot(reflect(-lightDirection, normalDirection), viewDirection));
         const float3 specularReflection = diffuseReflection * specColor.rgb() * pow(highlight, shininess);
-        const Float rim = 1.0f - saturate(dot(viewDirection, normalDirection));
+        const Float rim = 1.0f - saturate(dot(viewDirection, normalDirection));  // new
         const float3 rimLighting = saturate(dot(normalDirection, lightDirection)) * rimColor.rgb() * pow(rim, rimPower);
-        const float3 lightFinal = ambient + diffuseReflection + specularReflection + rimLighting;
+        const float3 lightFinal = ambient + diffuseReflection + specularReflection + rimLighting;  // new
         return float4(lightFinal * color.rgb(), 1.0f);
     }
 };
 
 }  // namespace
 
-Stage normal_maps_04_rim_lighting()
-{
+Stage normal_maps_04_rim_lighting() {
     return {.title = "Rim lighting",
             .section = "7, final code",
             .news = "A third kind of light, along the edge of what faces the lamp.",
-            .properties =
-                cgProperties({{"rimColor", glm::vec4(1.0f), 0.0f, 1.0f, 4, "Rim Color"},
-                              {"rimPower", glm::vec4(3.0f), 0.1f, 10.0f, 1, "Rim Power: larger is narrower"},
-                              {"bumpDepth", glm::vec4(1.0f), 0.0f, 8.0f, 1, "z of all normals; 0 is the bumpiest"}}),
-            .inputs = {.mesh = "sphere", .normal = "marble-heights.png"},
+            .uniforms = declared<frag>(),
+            .mesh = "sphere",
             .camera = {.position = {0.0f, 0.3f, -1.8f}},
-            .draw = [](const Scene& s) {
-                const float3 lightColor0 = s.light.color * s.number("lightStrength");
-                s.draw(s.mesh, vert{s.object(s.objects[0].worldFromObject)},
-                       frag{s.worldSpaceCameraPos, s.vector("ambient").rgb(), lightColor0, float4(s.light.dir, 0.0f),
-                            s.normalMap, s.vector("bumpMap_ST"), s.vector("color"), s.vector("specColor"),
-                            s.vector("rimColor"), s.number("shininess"), s.number("rimPower"), s.number("bumpDepth")});
-            }};
+            .draw = [](const Scene& s) { s.draw<vert, frag>(s.objects[0]); }};
 }
 
 }  // namespace relief::samples

@@ -4,19 +4,16 @@
 #include "common/stage.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct vertexInput
-{
+struct vertexInput {
     POSITION vertex;
     NORMAL normal;
     TEXCOORD<0, float4> texcoord;
     TANGENT tangent;
 };
 
-struct vertexOutput
-{
+struct vertexOutput {
     SV_POSITION pos;
     TEXCOORD<0, float4> tex;
     TEXCOORD<1, float4> posWorld;
@@ -25,12 +22,8 @@ struct vertexOutput
     TEXCOORD<4, float3> binormalWorld;
 };
 
-struct vert
-{
-    ObjectTransform object;
-
-    vertexOutput operator()(vertexInput v) const
-    {
+struct vert : Uniforms {
+    vertexOutput operator()(vertexInput v) const {
         vertexOutput o;
         o.tangentWorld = UnityObjectToWorldDir(object, v.tangent.xyz());
         o.normalWorld = UnityObjectToWorldNormal(object, v.normal);
@@ -42,27 +35,25 @@ struct vert
     }
 };
 
-struct frag
-{
-    float3 worldSpaceCameraPos, ambient, lightColor0;
-    float4 worldSpaceLightPos0;  // w = 0: towards a directional light; w = 1: where a point light is
-    sampler2D mainTex, bumpMap;
-    float4 mainTex_ST, bumpMap_ST, color, specColor, rimColor;
-    Float shininess, rimPower, glossFromRed;
+struct frag : CgMaterial {
+    float4 rimColor = rgba("rimColor", glm::vec4(1.0f), "Rim Color");
+    Float rimPower = number("rimPower", 3.0f, {0.1f, 10}, "Rim Power: larger is narrower");
+    sampler2D mainTex = albedo("marble-albedo.png");                                                            // new
+    float4 mainTex_ST = vector("mainTex_ST", {1, 1, 0, 0}, {-16, 16}, "tiling in x and y, offset in z and w");  // new
+    Float glossFromRed = number("glossFromRed", 1.0f, {0, 1}, "gloss is the texture's alpha (0) or its red (1)");
 
-    float4 operator()(vertexOutput i) const
-    {
+    float4 operator()(vertexOutput i) const {
         const float3 viewDirection = normalize(worldSpaceCameraPos - i.posWorld.xyz());
-        const Float isPoint = worldSpaceLightPos0.w;
-        const float3 vertexToLightSource = worldSpaceLightPos0.xyz() - i.posWorld.xyz() * isPoint;
-        const float3 lightDirection = normalize(vertexToLightSource);
+        const Float isPoint = worldSpaceLightPos0.w;                                                // new
+        const float3 vertexToLightSource = worldSpaceLightPos0.xyz() - i.posWorld.xyz() * isPoint;  // new
+        const float3 lightDirection = normalize(vertexToLightSource);                               // new
         const Float atten = select(isPoint == 0.0f, Float(1.0f), 1.0f / max(length(vertexToLightSource), Float(1e-3f)));
 
-        const float4 tex = tex2D(mainTex, mainTex_ST.xy() * i.tex.xy() + mainTex_ST.zw());
-        const Float gloss = lerp(tex.a, tex.r, glossFromRed);
+        const float4 tex = tex2D(mainTex, mainTex_ST.xy() * i.tex.xy() + mainTex_ST.zw());  // new
+        const Float gloss = lerp(tex.a, tex.r, glossFromRed);                               // new
         const float4 texN = tex2D(bumpMap, bumpMap_ST.xy() * i.tex.xy() + bumpMap_ST.zw());
         float3 localCoords = float3(2.0f * texN.ag() - 1.0f, 0.0f);
-        localCoords.z = 1.0f - 0.5f * dot(localCoords, localCoords);
+        localCoords.z = 1.0f - 0.5f * dot(localCoords, localCoords);  // new
         const float3x3 local2WorldTranspose = transpose(float3x3(i.tangentWorld, i.binormalWorld, i.normalWorld));
         const float3 normalDirection = normalize(mul(localCoords, local2WorldTranspose));
 
@@ -72,44 +63,37 @@ struct frag
         const Float rim = 1.0f - saturate(dot(viewDirection, normalDirection));
         const float3 rimLighting = saturate(dot(normalDirection, lightDirection)) * rimColor.rgb() * pow(rim, rimPower);
         const float3 lightFinal = ambient + diffuseReflection + specularReflection + rimLighting;
-        return float4(tex.rgb() * lightFinal * color.rgb(), 1.0f);
+        return float4(tex.rgb() * lightFinal * color.rgb(), 1.0f);  // new
     }
 };
 
-// The base pass fills the depth buffer; an additive pass adds its light where that very depth is seen.
+// The base pass fills the depth buffer; an additive pass adds its light where that very depth is seen.  // new
 constexpr RenderState kAdditivePass = {.depthTest = Compare::equal, .depthWrite = false, .blend = Blend::additive};
 
-void drawPass(const Scene& s, const float3& ambient, const float3& lightColor0, const float4& worldSpaceLightPos0,
-              const RenderState& pass)
-{
-    s.draw(s.mesh, vert{s.object(s.objects[0].worldFromObject)},
-           frag{s.worldSpaceCameraPos, ambient, lightColor0, worldSpaceLightPos0, s.mainTex, s.normalMap,
-                s.vector("mainTex_ST"), s.vector("bumpMap_ST"), s.vector("color"), s.vector("specColor"),
-                s.vector("rimColor"), s.number("shininess"), s.number("rimPower"), s.number("glossFromRed")},
-           pass);
-}
+struct Lamp : Uniforms {                                                                                       // new
+    Float strength = number("lampStrength", 1.0f, {0, 64}, "of the point light");                              // new
+    float3 position = vector("lampPosition", glm::vec3(-0.9f, 0.1f, -0.6f), {-16, 16}, "of the point light");  // new
+};
 
 }  // namespace
 
-Stage normal_maps_05_final_code()
-{
+Stage normal_maps_05_final_code() {
     return {.title = "Final code",
             .section = "7, final code",
             .news = "Colours, gloss, bumps and rim, under a directional and a point light.",
-            .properties = cgProperties(
-                {{"rimColor", glm::vec4(1.0f), 0.0f, 1.0f, 4, "Rim Color"},
-                 {"rimPower", glm::vec4(3.0f), 0.1f, 10.0f, 1, "Rim Power: larger is narrower"},
-                 {"mainTex_ST", {1, 1, 0, 0}, -16.0f, 16.0f, 4, "tiling in x and y, offset in z and w"},
-                 {"glossFromRed", glm::vec4(1.0f), 0.0f, 1.0f, 1, "gloss is the texture's alpha (0) or its red (1)"},
-                 {"lampStrength", glm::vec4(1.0f), 0.0f, 64.0f, 1, "of the point light"},
-                 {"lampPosition", {-0.9f, 0.1f, -0.6f, 0}, -16.0f, 16.0f, 3, "of the point light"}}),
-            .inputs = {.mesh = "sphere", .albedo = "marble-albedo.png", .normal = "marble-heights.png"},
+            .uniforms = declared<frag, Lamp>(),
+            .mesh = "sphere",
             .camera = {.position = {0.0f, 0.3f, -1.8f}},
             .draw = [](const Scene& s) {
-                const float3 sun = s.light.color * s.number("lightStrength");
-                const float3 lamp = float3(0.3f, 0.55f, 1.0f) * s.number("lampStrength");
-                drawPass(s, s.vector("ambient").rgb(), sun, float4(s.light.dir, 0.0f), {});
-                drawPass(s, float3(0.0f), lamp, float4(s.vector("lampPosition").xyz(), 1.0f), kAdditivePass);
+                const Object& o = s.objects[0];
+                s.draw<vert, frag>(o);
+
+                const Lamp lamp = s.uniforms();
+                frag fragment = s.uniforms(o.worldFromObject);
+                fragment.ambient = float3(0.0f);
+                fragment.worldSpaceLightPos0 = float4(lamp.position, 1.0f);
+                fragment.lightColor0 = float3(0.3f, 0.55f, 1.0f) * lamp.strength;
+                s.draw(*o.mesh, vert(s.uniforms(o.worldFromObject)), fragment, kAdditivePass);
             }};
 }
 

@@ -5,28 +5,21 @@
 #include "shading/triplanar.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -36,15 +29,8 @@ struct MyVertexProgram
 };
 
 template <bool TRIPLANAR>
-struct MyFragmentProgram
-{
-    Float tiling;
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex;
-
-    float4 operator()(Interpolators i) const
-    {
+struct MyFragmentProgram : TriplanarMaterial {
+    float4 operator()(Interpolators i) const {
         i.worldNormal = normalize(i.worldNormal);
         float3 albedo;
         if constexpr (TRIPLANAR) {
@@ -59,27 +45,28 @@ struct MyFragmentProgram
     }
 };
 
+struct Mountains : Uniforms {
+    float height = number("height", 3.0f, {0, 16}, "of the mountains");
+};
+
 // The hills are made into mountains; a mesh of the user's stands as it is.
 template <bool TRIPLANAR>
-void drawTerrain(const Scene& s)
-{
-    const Float height = s.number("height");
+void drawTerrain(const Scene& s) {
     for (const Object& o : s.objects) {
-        const bool hills = o.mesh->name == "terrain";
-        s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject * scaling({1.0f, hills ? height[0] : 1.0f, 1.0f}))},
-               MyFragmentProgram<TRIPLANAR>{s.number("tiling"), s.vector("ambient").xyz(), s.light, s.mainTex});
+        const float height = o.mesh->name == "terrain" ? Mountains(s.uniforms()).height : 1.0f;
+        const glm::mat4 stretched = o.worldFromObject * scaling({1.0f, height, 1.0f});
+        s.draw<MyVertexProgram, MyFragmentProgram<TRIPLANAR>>({o.mesh, stretched});
     }
 }
 
 }  // namespace
 
-Stage triplanar_01_monoplanar_and_triplanar()
-{
+Stage triplanar_01_monoplanar_and_triplanar() {
     return {.title = "Monoplanar and triplanar",
             .section = "Try Play What Now?",
             .news = "A texture laid over mountains from above (left) and from three sides (right).",
-            .properties = triplanarProperties({{"height", glm::vec4(3.0f), 0.0f, 16.0f, 1, "of the mountains"}}),
-            .inputs = bricks("terrain"),
+            .uniforms = declared<MyFragmentProgram<true>, Mountains>(),
+            .mesh = "terrain",
             .camera = {.position = {0.0f, 1.0f, -1.6f}},
             .draw = [](const Scene& s) {
                 s.cutCell(0, 2);

@@ -5,28 +5,21 @@
 #include "shading/triplanar.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -35,29 +28,21 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    Float tiling, bumpScale;
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex, normalMap;
-
-    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const
-    {
+struct MyFragmentProgram : TriplanarMaterial {
+    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const {
         const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
         float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);
         float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);
         float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);
 
-        tnormalX = float3(tnormalX.xy() + i.worldNormal.zy(), i.worldNormal.x);
-        tnormalY = float3(tnormalY.xy() + i.worldNormal.xz(), i.worldNormal.y);
-        tnormalZ = float3(tnormalZ.xy() + i.worldNormal.xy(), i.worldNormal.z);
+        tnormalX = float3(tnormalX.xy() + i.worldNormal.zy(), i.worldNormal.x);  // new
+        tnormalY = float3(tnormalY.xy() + i.worldNormal.xz(), i.worldNormal.y);  // new
+        tnormalZ = float3(tnormalZ.xy() + i.worldNormal.xy(), i.worldNormal.z);  // new
 
         return normalize(tnormalX.zyx() * blend.x + tnormalY.xzy() * blend.y + tnormalZ.xyz() * blend.z);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         i.worldNormal = normalize(i.worldNormal);
         const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
         const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
@@ -71,20 +56,16 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage triplanar_04_udn()
-{
+Stage triplanar_04_udn() {
     return {.title = "UDN",
             .section = "UDN Blend",
             .news = "The map's slopes added to the surface's normal: round surfaces stay round.",
-            .properties = triplanarProperties(),
-            .inputs = bricks("cube+sphere"),
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "cube+sphere",
+            .cubesTurnedBy = 0.0f,
             .camera = {.position = {1.1f, 1.1f, -2.1f}},
             .draw = [](const Scene& s) {
-                for (const Object& o : s.objects) {
-                    s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
-                           MyFragmentProgram{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(),
-                                             s.light, s.mainTex, s.normalMap});
-                }
+                for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram>(o);
             }};
 }
 

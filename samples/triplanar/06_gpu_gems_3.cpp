@@ -6,28 +6,21 @@
 #include "shading/triplanar.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -36,29 +29,21 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    Float tiling, bumpScale;
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex, normalMap;
-
-    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const
-    {
+struct MyFragmentProgram : TriplanarMaterial {
+    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const {
         const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
-        const float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);
-        const float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);
-        const float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);
+        const float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);  // new
+        const float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);  // new
+        const float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);  // new
 
-        const float3 normalX = float3(0.0f, tnormalX.yx());
-        const float3 normalY = float3(tnormalY.x, 0.0f, tnormalY.y);
-        const float3 normalZ = float3(tnormalZ.xy(), 0.0f);
+        const float3 normalX = float3(0.0f, tnormalX.yx());           // new
+        const float3 normalY = float3(tnormalY.x, 0.0f, tnormalY.y);  // new
+        const float3 normalZ = float3(tnormalZ.xy(), 0.0f);           // new
 
-        return normalize(normalX * blend.x + normalY * blend.y + normalZ * blend.z + i.worldNormal);
+        return normalize(normalX * blend.x + normalY * blend.y + normalZ * blend.z + i.worldNormal);  // new
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         i.worldNormal = normalize(i.worldNormal);
         const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
         const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
@@ -70,49 +55,48 @@ struct MyFragmentProgram
     }
 };
 
-// By how much UDN's normal is another one.
-struct ShowDifference
-{
-    MyFragmentProgram program;
-    Float exaggeration;
+// By how much UDN's normal is another one.  // new
+struct ShowDifference {         // new
+    MyFragmentProgram program;  // new
+    Float exaggeration;         // new
 
-    float4 operator()(Interpolators i) const
-    {
-        i.worldNormal = normalize(i.worldNormal);
-        const Triplanar<float2> uv = TriplanarUV(i.worldPos * program.tiling);
-        const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
-        const Triplanar<float4> texel = tex2DTriplanar(program.normalMap, uv, blend);
-        const Triplanar<float3> bumps = {UnpackScaleNormal(texel.x, program.bumpScale),
-                                         UnpackScaleNormal(texel.y, program.bumpScale),
-                                         UnpackScaleNormal(texel.z, program.bumpScale)};
-        const float3 udn = TriplanarNormal(bumps, i.worldNormal, blend, triplanar::Udn());
-        return float4(abs(program.WorldNormal(i, uv, blend) - udn) * exaggeration, 1);
+    float4 operator()(Interpolators i) const {                                              // new
+        i.worldNormal = normalize(i.worldNormal);                                           // new
+        const Triplanar<float2> uv = TriplanarUV(i.worldPos * program.tiling);              // new
+        const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);                     // new
+        const Triplanar<float4> texel = tex2DTriplanar(program.normalMap, uv, blend);       // new
+        const Triplanar<float3> bumps = {UnpackScaleNormal(texel.x, program.bumpScale),     // new
+                                         UnpackScaleNormal(texel.y, program.bumpScale),     // new
+                                         UnpackScaleNormal(texel.z, program.bumpScale)};    // new
+        const float3 udn = TriplanarNormal(bumps, i.worldNormal, blend, triplanar::Udn());  // new
+        return float4(abs(program.WorldNormal(i, uv, blend) - udn) * exaggeration, 1);      // new
     }
+};
+
+struct Choice : Uniforms {                                                                              // new
+    int show = choice("show", 0, {"both", "GPU Gems 3", "the difference to UDN"}, "which of the two");  // new
+    Float exaggeration = number("exaggeration", 1e6f, {1, 1e7f}, "of the difference");                  // new
 };
 
 }  // namespace
 
-Stage triplanar_06_gpu_gems_3()
-{
+Stage triplanar_06_gpu_gems_3() {
     return {.title = "GPU Gems 3",
             .section = "Whiteout Blend",
             .news = "UDN with fewer operations (left), and its difference to UDN, a million times enlarged (right).",
-            .properties = triplanarProperties(
-                {{"show", glm::vec4(0.0f), 0.0f, 2.0f, 1, "0: both, 1: GPU Gems 3, 2: the difference to UDN"},
-                 {"exaggeration", glm::vec4(1e6f), 1.0f, 1e7f, 1, "of the difference"}}),
-            .inputs = bricks("cube+sphere"),
+            .uniforms = declared<MyFragmentProgram, Choice>(),
+            .mesh = "cube+sphere",
+            .cubesTurnedBy = 0.0f,
             .camera = {.position = {1.1f, 1.1f, -2.1f}},
             .draw = [](const Scene& s) {
-                const float show = s.number("show")[0];
+                const Choice choice = s.uniforms();
                 for (const Object& o : s.objects) {
-                    const MyVertexProgram vertex = {s.object(o.worldFromObject)};
-                    const MyFragmentProgram gems = {
-                        s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(), s.light, s.mainTex,
-                        s.normalMap};
-                    if (show == 0.0f) s.cutStrip(0.0f, 0.5f);
-                    if (show != 2.0f) s.draw(*o.mesh, vertex, gems);
-                    if (show == 0.0f) s.cutStrip(0.5f, 1.0f);
-                    if (show != 1.0f) s.draw(*o.mesh, vertex, ShowDifference{gems, s.number("exaggeration")});
+                    const Uniforms uniforms = s.uniforms(o.worldFromObject);
+                    const MyVertexProgram vertex = uniforms;
+                    if (choice.show == 0) s.cutStrip(0.0f, 0.5f);
+                    if (choice.show != 2) s.draw(*o.mesh, vertex, MyFragmentProgram(uniforms));
+                    if (choice.show == 0) s.cutStrip(0.5f, 1.0f);
+                    if (choice.show != 1) s.draw(*o.mesh, vertex, ShowDifference{uniforms, choice.exaggeration});
                 }
             }};
 }

@@ -5,28 +5,21 @@
 #include "shading/triplanar.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -35,35 +28,27 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    Float tiling, bumpScale;
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex, normalMap;
-
-    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const
-    {
+struct MyFragmentProgram : TriplanarMaterial {
+    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const {
         const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
-        float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);
-        float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);
-        float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);
+        float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);  // new
+        float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);  // new
+        float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);  // new
 
-        const float3 facing = abs(i.worldNormal);
-        tnormalX = BlendNormalsRNM(float3(i.worldNormal.zy(), facing.x), tnormalX);
-        tnormalY = BlendNormalsRNM(float3(i.worldNormal.xz(), facing.y), tnormalY);
-        tnormalZ = BlendNormalsRNM(float3(i.worldNormal.xy(), facing.z), tnormalZ);
+        const float3 facing = abs(i.worldNormal);                                    // new
+        tnormalX = BlendNormalsRNM(float3(i.worldNormal.zy(), facing.x), tnormalX);  // new
+        tnormalY = BlendNormalsRNM(float3(i.worldNormal.xz(), facing.y), tnormalY);  // new
+        tnormalZ = BlendNormalsRNM(float3(i.worldNormal.xy(), facing.z), tnormalZ);  // new
 
-        const float3 side = axisSign(i.worldNormal);
-        tnormalX.z *= side.x;
-        tnormalY.z *= side.y;
-        tnormalZ.z *= side.z;
+        const float3 side = axisSign(i.worldNormal);  // new
+        tnormalX.z *= side.x;                         // new
+        tnormalY.z *= side.y;                         // new
+        tnormalZ.z *= side.z;                         // new
 
-        return normalize(tnormalX.zyx() * blend.x + tnormalY.xzy() * blend.y + tnormalZ.xyz() * blend.z);
+        return normalize(tnormalX.zyx() * blend.x + tnormalY.xzy() * blend.y + tnormalZ.xyz() * blend.z);  // new
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         i.worldNormal = normalize(i.worldNormal);
         const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
         const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
@@ -77,20 +62,16 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage triplanar_07_reoriented_normal_mapping()
-{
+Stage triplanar_07_reoriented_normal_mapping() {
     return {.title = "Reoriented normal mapping",
             .section = "Reoriented Normal Mapping",
             .news = "The map's normal, turned as the surface is turned from the plane.",
-            .properties = triplanarProperties(),
-            .inputs = bricks("cube+sphere"),
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "cube+sphere",
+            .cubesTurnedBy = 0.0f,
             .camera = {.position = {1.1f, 1.1f, -2.1f}},
             .draw = [](const Scene& s) {
-                for (const Object& o : s.objects) {
-                    s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
-                           MyFragmentProgram{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(),
-                                             s.light, s.mainTex, s.normalMap});
-                }
+                for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram>(o);
             }};
 }
 

@@ -6,28 +6,21 @@
 #include "shading/triplanar.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -36,29 +29,21 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    Float tiling, bumpScale;
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex, normalMap;
-
-    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const
-    {
+struct MyFragmentProgram : TriplanarMaterial {
+    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const {
         const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
         float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);
         float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);
         float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);
 
-        tnormalX = mul(cotangent_frame(i.worldNormal, i.worldPos, uv.x), tnormalX);
-        tnormalY = mul(cotangent_frame(i.worldNormal, i.worldPos, uv.y), tnormalY);
-        tnormalZ = mul(cotangent_frame(i.worldNormal, i.worldPos, uv.z), tnormalZ);
+        tnormalX = mul(cotangent_frame(i.worldNormal, i.worldPos, uv.x), tnormalX);  // new
+        tnormalY = mul(cotangent_frame(i.worldNormal, i.worldPos, uv.y), tnormalY);  // new
+        tnormalZ = mul(cotangent_frame(i.worldNormal, i.worldPos, uv.z), tnormalZ);  // new
 
-        return normalize(tnormalX * blend.x + tnormalY * blend.y + tnormalZ * blend.z);
+        return normalize(tnormalX * blend.x + tnormalY * blend.y + tnormalZ * blend.z);  // new
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         i.worldNormal = normalize(i.worldNormal);
         const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
         const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
@@ -72,20 +57,16 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage triplanar_08_cotangent_frame()
-{
+Stage triplanar_08_cotangent_frame() {
     return {.title = "Cotangent frame",
             .section = "Screen Space Partial Derivatives",
             .news = "A tangent space for each plane, from differences between neighbouring pixels.",
-            .properties = triplanarProperties(),
-            .inputs = bricks("cube+sphere"),
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "cube+sphere",
+            .cubesTurnedBy = 0.0f,
             .camera = {.position = {1.1f, 1.1f, -2.1f}},
             .draw = [](const Scene& s) {
-                for (const Object& o : s.objects) {
-                    s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
-                           MyFragmentProgram{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(),
-                                             s.light, s.mainTex, s.normalMap});
-                }
+                for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram>(o);
             }};
 }
 

@@ -6,28 +6,21 @@
 #include "shading/triplanar.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -36,32 +29,27 @@ struct MyVertexProgram
     }
 };
 
-template <bool FACETED>
-struct MyFragmentProgram
-{
-    Float tiling, bumpScale;
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex, normalMap;
+template <bool FACETED>  // new
+struct MyFragmentProgram : TriplanarMaterial {
+    UnityLight light = sun(35.0f, 60.0f);  // new
+    sampler2D mainTex = albedo(kNone);     // new
 
-    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const
-    {
+    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const {
         const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
         float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);
         float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);
         float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);
 
-        tnormalX = float3(tnormalX.xy() + i.worldNormal.zy(), abs(tnormalX.z) * i.worldNormal.x);
-        tnormalY = float3(tnormalY.xy() + i.worldNormal.xz(), abs(tnormalY.z) * i.worldNormal.y);
-        tnormalZ = float3(tnormalZ.xy() + i.worldNormal.xy(), abs(tnormalZ.z) * i.worldNormal.z);
+        tnormalX = float3(tnormalX.xy() + i.worldNormal.zy(), abs(tnormalX.z) * i.worldNormal.x);  // new
+        tnormalY = float3(tnormalY.xy() + i.worldNormal.xz(), abs(tnormalY.z) * i.worldNormal.y);  // new
+        tnormalZ = float3(tnormalZ.xy() + i.worldNormal.xy(), abs(tnormalZ.z) * i.worldNormal.z);  // new
 
-        return normalize(tnormalX.zyx() * blend.x + tnormalY.xzy() * blend.y + tnormalZ.xyz() * blend.z);
+        return normalize(tnormalX.zyx() * blend.x + tnormalY.xzy() * blend.y + tnormalZ.xyz() * blend.z);  // new
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         i.worldNormal = normalize(i.worldNormal);
-        if constexpr (FACETED) i.worldNormal = normalize(cross(ddx(i.worldPos), ddy(i.worldPos)));
+        if constexpr (FACETED) i.worldNormal = normalize(cross(ddx(i.worldPos), ddy(i.worldPos)));  // new
 
         const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
         const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
@@ -73,27 +61,19 @@ struct MyFragmentProgram
     }
 };
 
-template <bool FACETED>
-void drawObjects(const Scene& s)
-{
-    for (const Object& o : s.objects) {
-        s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
-               MyFragmentProgram<FACETED>{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(), s.light,
-                                          s.mainTex, s.normalMap});
-    }
+template <bool FACETED>                                                                        // new
+void drawObjects(const Scene& s) {                                                             // new
+    for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram<FACETED>>(o);  // new
 }
 
 }  // namespace
 
-Stage triplanar_09_faceted_normals()
-{
-    Inputs inputs = bricks("low-sphere");
-    inputs.albedo = kNone;
+Stage triplanar_09_faceted_normals() {
     return {.title = "Faceted normals",
             .section = "Screen Space Partial Derivatives",
             .news = "The triangle's own normal from two differences (right), instead of the interpolated one (left).",
-            .properties = triplanarProperties({}, 60.0f),
-            .inputs = inputs,
+            .uniforms = declared<MyFragmentProgram<true>>(),
+            .mesh = "low-sphere",
             .camera = {.position = {0.9f, 0.9f, -1.7f}},
             .draw = [](const Scene& s) {
                 s.cutCell(0, 2);

@@ -5,28 +5,21 @@
 #include "shading/triplanar.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -35,36 +28,28 @@ struct MyVertexProgram
     }
 };
 
-struct MyFragmentProgram
-{
-    Float tiling, bumpScale;
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex, normalMap;
-
-    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const
-    {
+struct MyFragmentProgram : TriplanarMaterial {
+    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const {
         const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
-        const float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);
-        const float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);
-        const float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);
+        const float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);  // new
+        const float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);  // new
+        const float3 tnormalZ = UnpackScaleNormal(texel.z, bumpScale);  // new
 
-        const float3 side = axisSign(i.worldNormal);
-        const float3 N = i.worldNormal;
-        const float3 tangentX = normalize(cross(N, float3(0, side.x, 0)));
-        const float3 tangentY = normalize(cross(N, float3(0, 0, side.y)));
-        const float3 tangentZ = normalize(cross(N, float3(0, -side.z, 0)));
-        const float3 bitangentX = normalize(cross(tangentX, N)) * side.x;
-        const float3 bitangentY = normalize(cross(tangentY, N)) * side.y;
-        const float3 bitangentZ = normalize(cross(tangentZ, N)) * -side.z;
+        const float3 side = axisSign(i.worldNormal);                         // new
+        const float3 N = i.worldNormal;                                      // new
+        const float3 tangentX = normalize(cross(N, float3(0, side.x, 0)));   // new
+        const float3 tangentY = normalize(cross(N, float3(0, 0, side.y)));   // new
+        const float3 tangentZ = normalize(cross(N, float3(0, -side.z, 0)));  // new
+        const float3 bitangentX = normalize(cross(tangentX, N)) * side.x;    // new
+        const float3 bitangentY = normalize(cross(tangentY, N)) * side.y;    // new
+        const float3 bitangentZ = normalize(cross(tangentZ, N)) * -side.z;   // new
 
-        return normalize(mul(float3x3(tangentX, bitangentX, N), tnormalX) * blend.x +
-                         mul(float3x3(tangentY, bitangentY, N), tnormalY) * blend.y +
-                         mul(float3x3(tangentZ, bitangentZ, N), tnormalZ) * blend.z);
+        return normalize(mul(float3x3(tangentX, bitangentX, N), tnormalX) * blend.x +  // new
+                         mul(float3x3(tangentY, bitangentY, N), tnormalY) * blend.y +  // new
+                         mul(float3x3(tangentZ, bitangentZ, N), tnormalZ) * blend.z);  // new
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         i.worldNormal = normalize(i.worldNormal);
         const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
         const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
@@ -78,20 +63,16 @@ struct MyFragmentProgram
 
 }  // namespace
 
-Stage triplanar_10_cross_product_tangents()
-{
+Stage triplanar_10_cross_product_tangents() {
     return {.title = "Cross product tangents",
             .section = "Cross Product Tangent Reconstruction",
             .news = "Tangent and binormal of each plane from cross products, as if the mesh had been mapped that way.",
-            .properties = triplanarProperties(),
-            .inputs = bricks("cube+sphere"),
+            .uniforms = declared<MyFragmentProgram>(),
+            .mesh = "cube+sphere",
+            .cubesTurnedBy = 0.0f,
             .camera = {.position = {1.1f, 1.1f, -2.1f}},
             .draw = [](const Scene& s) {
-                for (const Object& o : s.objects) {
-                    s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
-                           MyFragmentProgram{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(),
-                                             s.light, s.mainTex, s.normalMap});
-                }
+                for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram>(o);
             }};
 }
 

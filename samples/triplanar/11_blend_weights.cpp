@@ -5,28 +5,21 @@
 #include "shading/triplanar.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -36,30 +29,16 @@ struct MyVertexProgram
 };
 
 // Properties count them from 1.
-enum class Weights
-{
-    linear = 1,
-    offset,
-    offsetTimes7,
-    power4,
-    power8,
-    power,
-    asymmetric,
-    height,
-    offsetTooLarge
-};
+enum class Weights { linear = 1, offset, offsetTimes7, power4, power8, power, asymmetric, height, offsetTooLarge };
 
 template <Weights kind>
-struct MyFragmentProgram
-{
-    Float tiling, sharpness, heightRange;
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex, heightMap;
-    bool asColors;
+struct MyFragmentProgram : TriplanarMaterial {
+    sampler2D heightMap = heights("bricks-heights.png");
+    Float sharpness = number("sharpness", 16.0f, {0, 128}, "the exponent of kind 6");
+    Float heightRange = number("heightRange", 0.3f, {0.01f, 1}, "of kind 8: how much lower may still be seen");
+    bool asColors = toggle("asColors", false, "of one kind: 1 shows the weights");
 
-    float3 Blend(const float3& normal, const Triplanar<float2>& uv) const
-    {
+    float3 Blend(const float3& normal, const Triplanar<float2>& uv) const {
         if constexpr (kind == Weights::linear) return TriplanarBlendLinear(normal);
         if constexpr (kind == Weights::offset) return TriplanarBlendOffset(normal, 0.2f);
         if constexpr (kind == Weights::power4) return TriplanarBlendPower4(normal);
@@ -76,8 +55,7 @@ struct MyFragmentProgram
         return blend / (blend.x + blend.y + blend.z);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         i.worldNormal = normalize(i.worldNormal);
         const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
         const float3 blend = Blend(i.worldNormal, uv);
@@ -89,24 +67,29 @@ struct MyFragmentProgram
     }
 };
 
+struct Choice : Uniforms {
+    int weights = choice("weights", 0,
+                         {"side by side", "linear", "offset", "offset times 7", "4th power", "8th power", "power",
+                          "asymmetric", "by height", "offset too large"},
+                         "which kind");
+};
+
 template <Weights kind>
-void drawShape(const Scene& s, bool asColors)
-{
+void drawShape(const Scene& s, std::optional<bool> asColors = {}) {
     for (const Object& o : s.objects) {
-        s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
-               MyFragmentProgram<kind>{s.number("tiling"), s.number("sharpness"), s.number("heightRange"),
-                                       s.vector("ambient").xyz(), s.light, s.mainTex, s.heightMap, asColors});
+        MyFragmentProgram<kind> fragment = s.uniforms(o.worldFromObject);
+        if (asColors) fragment.asColors = *asColors;
+        s.draw(*o.mesh, MyVertexProgram(s.uniforms(o.worldFromObject)), fragment);
     }
 }
 
 // All side by side, or the one that the property asks for.
 template <Weights... kind>
-void drawAll(const Scene& s)
-{
-    const auto only = static_cast<Weights>(static_cast<int>(s.number("weights")[0]));
+void drawAll(const Scene& s) {
+    const auto only = static_cast<Weights>(Choice(s.uniforms()).weights);
     int column = 0;
     const auto drawOne = [&]<Weights one>() {
-        if (only == one) drawShape<one>(s, s.number("asColors")[0] != 0.0f);
+        if (only == one) drawShape<one>(s);
         if (only != Weights() || one == Weights::power8 || one == Weights::power) return;
         for (const int row : {0, 1}) {
             s.cutCell(column, 7, row, 2);
@@ -119,19 +102,12 @@ void drawAll(const Scene& s)
 
 }  // namespace
 
-Stage triplanar_11_blend_weights()
-{
-    Inputs inputs = bricks("sphere");
-    inputs.height = "bricks-heights.png";
+Stage triplanar_11_blend_weights() {
     return {.title = "Blend weights",
             .section = "Triplanar Blending",
             .news = "Linear, 0.2 off, the same times 7, fourth power, asymmetric, by height; wrong: 0.65 off.",
-            .properties = triplanarProperties(
-                {{"weights", glm::vec4(0.0f), 0.0f, 9.0f, 1, "0: side by side; 1 to 9: one kind alone"},
-                 {"asColors", glm::vec4(0.0f), 0.0f, 1.0f, 1, "of one kind: 1 shows the weights"},
-                 {"sharpness", glm::vec4(16.0f), 0.0f, 128.0f, 1, "the exponent of kind 6"},
-                 {"heightRange", glm::vec4(0.3f), 0.01f, 1.0f, 1, "of kind 8: how much lower may still be seen"}}),
-            .inputs = inputs,
+            .uniforms = declared<Choice, MyFragmentProgram<Weights::linear>>(),
+            .mesh = "sphere",
             .camera = {.position = {3.4f, 3.4f, -3.4f}},
             .draw = [](const Scene& s) {
                 using enum Weights;

@@ -5,28 +5,21 @@
 #include "shading/triplanar.h"
 
 namespace relief::samples {
-
 namespace {
 
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
 };
 
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators operator()(VertexData v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -36,18 +29,13 @@ struct MyVertexProgram
 };
 
 template <bool OFFSET, bool FLIP>
-struct MyFragmentProgram
-{
-    Float tiling, bumpScale;
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex, normalMap;
+struct MyFragmentProgram : TriplanarMaterial {
+    UnityLight light = sun(35.0f, 150.0f);
 
     // +1, or -1 on the sides that look at a plane from its back: -x, -y and +z in a left-handed world.
     static float3 FlipOf(const float3& normal) { return FLIP ? axisSign(normal) * float3(1, 1, -1) : float3(1.0f); }
 
-    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const
-    {
+    float3 WorldNormal(const Interpolators& i, const Triplanar<float2>& uv, const float3& blend) const {
         const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
         float3 tnormalX = UnpackScaleNormal(texel.x, bumpScale);
         float3 tnormalY = UnpackScaleNormal(texel.y, bumpScale);
@@ -65,8 +53,7 @@ struct MyFragmentProgram
         return normalize(tnormalX.zyx() * blend.x + tnormalY.xzy() * blend.y + tnormalZ.xyz() * blend.z);
     }
 
-    float4 operator()(Interpolators i) const
-    {
+    float4 operator()(Interpolators i) const {
         i.worldNormal = normalize(i.worldNormal);
         Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
         const float3 flip = FlipOf(i.worldNormal);
@@ -88,24 +75,19 @@ struct MyFragmentProgram
 };
 
 template <bool OFFSET, bool FLIP>
-void drawShape(const Scene& s)
-{
-    for (const Object& o : s.objects) {
-        s.draw(*o.mesh, MyVertexProgram{s.object(o.worldFromObject)},
-               MyFragmentProgram<OFFSET, FLIP>{s.number("tiling"), s.number("bumpScale"), s.vector("ambient").xyz(),
-                                               s.light, s.mainTex, s.normalMap});
-    }
+void drawShape(const Scene& s) {
+    for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram<OFFSET, FLIP>>(o);
 }
 
 }  // namespace
 
-Stage triplanar_12_mirrored_uv()
-{
+Stage triplanar_12_mirrored_uv() {
     return {.title = "Mirrored uv",
             .section = "Mirrored UVs",
             .news = "Pictures mirrored on three sides of six; planes shifted, sides flipped, and both.",
-            .properties = triplanarProperties({}, 150.0f),
-            .inputs = bricks("cube"),
+            .uniforms = declared<MyFragmentProgram<true, true>>(),
+            .mesh = "cube",
+            .cubesTurnedBy = 0.0f,
             .camera = {.position = {-3.1f, 2.2f, 3.1f}},
             .draw = [](const Scene& s) {
                 s.cutCell(0, 4);

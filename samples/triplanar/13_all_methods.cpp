@@ -8,42 +8,35 @@
 #include "shading/triplanar.h"
 
 namespace relief::samples {
-
 namespace {
 
 using namespace triplanar;
 
 // A method of its own: the mesh's tangents. It alone needs them.
-struct MeshTangents
-{
-};
+struct MeshTangents {};
 
 template <bool TANGENTS>
-struct VertexData
-{
+struct VertexData {
     POSITION position;
     NORMAL normal;
 };
 
 template <>
-struct VertexData<true>
-{
+struct VertexData<true> {
     POSITION position;
     NORMAL normal;
     TANGENT tangent;
 };
 
 template <bool TANGENTS>
-struct Interpolators
-{
+struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
 };
 
 template <>
-struct Interpolators<true>
-{
+struct Interpolators<true> {
     SV_POSITION position;
     TEXCOORD<0, float3> worldPos;
     TEXCOORD<1, float3> worldNormal;
@@ -51,12 +44,8 @@ struct Interpolators<true>
 };
 
 template <bool TANGENTS>
-struct MyVertexProgram
-{
-    ObjectTransform object;
-
-    Interpolators<TANGENTS> operator()(VertexData<TANGENTS> v) const
-    {
+struct MyVertexProgram : Uniforms {
+    Interpolators<TANGENTS> operator()(VertexData<TANGENTS> v) const {
         Interpolators<TANGENTS> i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.worldPos = mul(object.worldFromObject, v.position).xyz();
@@ -70,18 +59,13 @@ struct MyVertexProgram
 
 // `compare`: 0 shows the surface in its light, 1 to 3 the angle to AlongProjection, AlongNormal and Rotated.
 template <class Method, int compare>
-struct MyFragmentProgram
-{
+struct MyFragmentProgram : TriplanarMaterial {
     static constexpr bool kTangents = std::is_same_v<Method, MeshTangents>;
-    Float tiling, bumpScale, maximumAngle;
-    float3 ambient;
-    UnityLight light;
-    sampler2D mainTex, normalMap;
+    Float maximumAngle = number("maximumAngle", 20.0f, {1, 180}, "degrees that are red");
 
     template <class Any>
     static float3 WorldNormal(const Interpolators<kTangents>& i, const Triplanar<float2>& uv,
-                              const Triplanar<float3>& bumps, const float3& blend)
-    {
+                              const Triplanar<float3>& bumps, const float3& blend) {
         if constexpr (std::is_same_v<Any, MeshTangents>) {
             const float3 tnormal = bumps.x * blend.x + bumps.y * blend.y + bumps.z * blend.z;
             const float3 tangent = i.worldTangent.xyz();
@@ -96,8 +80,7 @@ struct MyFragmentProgram
         }
     }
 
-    float4 operator()(Interpolators<kTangents> i) const
-    {
+    float4 operator()(Interpolators<kTangents> i) const {
         i.worldNormal = normalize(i.worldNormal);
         const Triplanar<float2> uv = TriplanarUV(i.worldPos * tiling);
         const float3 blend = TriplanarBlendOffset(i.worldNormal, 0.2f);
@@ -117,19 +100,13 @@ struct MyFragmentProgram
 };
 
 template <class Method, int compare>
-void drawShape(const Scene& s)
-{
+void drawShape(const Scene& s) {
     using Program = MyFragmentProgram<Method, compare>;
-    for (const Object& o : s.objects) {
-        s.draw(*o.mesh, MyVertexProgram<Program::kTangents>{s.object(o.worldFromObject)},
-               Program{s.number("tiling"), s.number("bumpScale"), s.number("maximumAngle"), s.vector("ambient").xyz(),
-                       s.light, s.mainTex, s.normalMap});
-    }
+    for (const Object& o : s.objects) s.draw<MyVertexProgram<Program::kTangents>, Program>(o);
 }
 
 template <class... Method>
-void drawAll(const Scene& s)
-{
+void drawAll(const Scene& s) {
     int column = 0;
     const auto drawColumn = [&]<class One>() {
         constexpr int kColumns = sizeof...(Method);
@@ -146,14 +123,12 @@ void drawAll(const Scene& s)
 
 }  // namespace
 
-Stage triplanar_13_all_methods()
-{
+Stage triplanar_13_all_methods() {
     return {.title = "All methods",
             .section = "Chasing the truth",
             .news = "Eight methods (above), and the angles to two truths: along the projection, along the normal.",
-            .properties =
-                triplanarProperties({{"maximumAngle", glm::vec4(20.0f), 1.0f, 180.0f, 1, "degrees that are red"}}),
-            .inputs = bricks("sphere"),
+            .uniforms = declared<MyFragmentProgram<Swizzle, 0>>(),
+            .mesh = "sphere",
             .camera = {.position = {2.9f, 2.9f, -5.1f}},
             .draw = [](const Scene& s) {
                 drawAll<MeshTangents, Swizzle, Udn, GpuGems3, Whiteout, Reoriented, CotangentFrame, CrossProducts>(s);

@@ -31,10 +31,11 @@ void Viewer::setBeside(Beside its, std::string name)
 
 Expected<void> Viewer::compareWith(const live::StageSource& source)
 {
-    // Its properties are not known yet: ask() gives it the values that it has.
+    // Its properties and views are not known yet: ask() asks for those that it has.
     live::Look its = wanted;
     its.settings.clear();
     its.files = {};
+    its.show.clear();
     if (source.folder != current->source().folder) its.camera.reset();
     Expected<std::unique_ptr<live::Session>> opened = live::Session::open(source, its, maker, compiler);
     if (!opened) return tl::unexpected(opened.error());

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "view/control.h"
 #include "view/turn.h"
 #include "view/viewer.h"
 #include "view/window.h"
@@ -59,7 +58,7 @@ private:
     bool section(const char* title, bool open = true);
     bool row(const std::string& label, bool changed, bool hasReset);  // true: the reset button was pressed
     void property(const Property& property);
-    bool control(const Property& property, const Control& control, glm::vec4& value);
+    bool control(const Property& property, glm::vec4& value);
     void markDefault(const Property& property) const;
     void properties(bool ofLight);
     void cameraSection();
@@ -73,6 +72,7 @@ private:
     // toolbar.cpp
     void toolbar();
     void comparison();
+    void chooseView();
     void chooseBeside();
     void status();
     void times();

@@ -64,12 +64,10 @@ void Interface::stageTab()
 {
     heading();
     ImGui::BeginChild("choices");
-    const Stage* const stage = viewer.stage();
-    if (stage != nullptr) {
+    if (viewer.stage() != nullptr) {
+        const std::vector<Property>& all = viewer.properties();
         if (section("Properties")) properties(false);
-        if (std::any_of(stage->properties.begin(), stage->properties.end(), isOfLight) && section("Light")) {
-            properties(true);
-        }
+        if (std::any_of(all.begin(), all.end(), isOfLight) && section("Light")) properties(true);
         if (section("Camera")) cameraSection();
         if (section("Picture")) pictureSection();
         if (!viewer.slots().empty() && section("Inputs", false)) inputSection();
@@ -144,7 +142,7 @@ bool Interface::row(const std::string& label, bool changed, bool hasReset)
 void Interface::properties(bool ofLight)
 {
     int shown = 0;
-    for (const Property& p : viewer.stage()->properties) {
+    for (const Property& p : viewer.properties()) {
         if (isOfLight(p) != ofLight) continue;
         property(p);
         ++shown;
@@ -160,7 +158,7 @@ void Interface::property(const Property& p)
     if (row(p.name, viewer.isChanged(p), true)) viewer.reset(p);
     glm::vec4 value = viewer.value(p);
     ImGui::BeginGroup();
-    const bool changed = control(p, controlOf(p), value);
+    const bool changed = control(p, value);
     ImGui::EndGroup();
     place("property." + p.name);
     if (!ImGui::IsItemActive()) tooltip(meaningOf(p));
@@ -184,24 +182,16 @@ void Interface::markDefault(const Property& p) const
                                                   ImVec2(x + points(4.0f), high.y + points(1.0f)), kDim);
 }
 
-bool Interface::control(const Property& p, const Control& control, glm::vec4& value)
+bool Interface::control(const Property& p, glm::vec4& value)
 {
-    using Kind = Control::Kind;
+    using Kind = Property::Kind;
     const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (isWide(p) ? ImGuiSliderFlags_Logarithmic : 0);
     bool changed = false;
-    switch (control.kind) {
+    switch (p.kind) {
         case Kind::number:
             changed = ImGui::SliderFloat("##value", &value.x, p.minimum, p.maximum, "%.4g", flags);
             markDefault(p);
             return changed;
-        case Kind::whole: {
-            int whole = static_cast<int>(std::lround(value.x));
-            changed = ImGui::SliderInt("##value", &whole, static_cast<int>(p.minimum), static_cast<int>(p.maximum),
-                                       "%d", ImGuiSliderFlags_AlwaysClamp);
-            value.x = changed ? static_cast<float>(whole) : value.x;
-            markDefault(p);
-            return changed;
-        }
         case Kind::color: {
             const ImGuiColorEditFlags how =
                 ImGuiColorEditFlags_Float | ImGuiColorEditFlags_AlphaPreviewHalf | ImGuiColorEditFlags_NoInputs;
@@ -231,17 +221,17 @@ bool Interface::control(const Property& p, const Control& control, glm::vec4& va
             }
             return changed;
         }
-        case Kind::tick: {
+        case Kind::toggle: {
             bool on = value.x != 0.0f;
             changed = ImGui::Checkbox("##value", &on);
             value.x = on ? 1.0f : 0.0f;
             return changed;
         }
         case Kind::choice: {
-            int chosen = std::clamp(static_cast<int>(std::lround(value.x)), 0, static_cast<int>(p.maximum));
-            if (!ImGui::BeginCombo("##value", control.names[static_cast<std::size_t>(chosen)].c_str())) return false;
-            for (int i = 0; i < static_cast<int>(control.names.size()); ++i) {
-                if (ImGui::Selectable(control.names[static_cast<std::size_t>(i)].c_str(), i == chosen)) {
+            int chosen = std::clamp(static_cast<int>(std::lround(value.x)), 0, static_cast<int>(p.choices.size()) - 1);
+            if (!ImGui::BeginCombo("##value", p.choices[static_cast<std::size_t>(chosen)].c_str())) return false;
+            for (int i = 0; i < static_cast<int>(p.choices.size()); ++i) {
+                if (ImGui::Selectable(p.choices[static_cast<std::size_t>(i)].c_str(), i == chosen)) {
                     value.x = static_cast<float>(i);
                     changed = true;
                 }
@@ -357,7 +347,7 @@ void Interface::inputSection()
             file.clear();
             viewer.change(look);
         }
-        const std::string own = *slot.usual == kNone ? "nothing" : *slot.usual;
+        const std::string own = slot.usual == kNone ? "nothing" : slot.usual;
         const std::string shown = file.empty() ? own : utf8Of(pathOf(file).filename());
         if (ImGui::BeginCombo("##file", shown.c_str())) {
             std::vector<std::pair<std::string, std::string>> choices = {{"the stage's: " + own, ""}};

@@ -16,6 +16,8 @@ void Interface::toolbar()
     if (button(panelShown ? "Hide panel" : "Panel", "panel", "Shows and hides the panel (Tab)"))
         panelShown = !panelShown;
     ImGui::SameLine();
+    chooseView();
+    ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Beside");
     ImGui::SameLine();
@@ -29,7 +31,8 @@ void Interface::toolbar()
         return ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
     };
     const float right = width("Copy command") + width("Save PNG") + width("Record turn") + width("Help");
-    ImGui::SameLine(std::max(ImGui::GetWindowWidth() - right - points(3.0f), ImGui::GetCursorPosX()));
+    const float after = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SameLine(std::max(ImGui::GetWindowWidth() - right - points(3.0f), after));
     if (button("Copy command", "copy", "Copies the command that renders this very picture (Ctrl+C)")) copyCommand();
     ImGui::SameLine();
     if (button("Save PNG", "save", "Writes this picture to a file (Ctrl+S)")) press('s', true, false);
@@ -43,10 +46,32 @@ void Interface::toolbar()
     if (viewer.besideKind() != Viewer::Beside::nothing) comparison();
 }
 
+// What lies behind the picture: depths, normals, interpolators ...
+void Interface::chooseView()
+{
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Show");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(points(110.0f));
+    live::Look look = viewer.look();
+    const bool open = ImGui::BeginCombo("##view", look.show.empty() ? "color" : look.show.c_str());
+    place("show");
+    if (!open) return tooltip("What lies behind the picture: depths, normals, what is interpolated ...");
+    for (const live::ViewName& view : viewer.views()) {
+        if (ImGui::Selectable(view.name.c_str(), view.name == look.show)) {
+            look.show = view.name == "color" ? "" : view.name;
+            viewer.change(look);
+        }
+        place("show." + view.name);
+        tooltip(view.meaning);
+    }
+    ImGui::EndCombo();
+}
+
 void Interface::chooseBeside()
 {
     const std::string shown = viewer.besideKind() == Viewer::Beside::nothing ? "nothing" : viewer.besideName();
-    ImGui::SetNextItemWidth(points(170.0f));
+    ImGui::SetNextItemWidth(points(150.0f));
     const bool open = ImGui::BeginCombo("##beside", shown.c_str(), ImGuiComboFlags_HeightLarge);
     place("beside");
     if (!open) {

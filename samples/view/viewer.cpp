@@ -48,6 +48,7 @@ Expected<void> Viewer::open(const live::StageSource& source)
         look.settings.clear();
         look.files = {};
         look.camera.reset();
+        look.show.clear();
     }
     Expected<std::unique_ptr<live::Session>> opened = live::Session::open(source, look, maker, compiler);
     if (!opened) return tl::unexpected(opened.error());
@@ -78,6 +79,18 @@ std::string Viewer::name() const
     const live::StageSource& source = current->source();
     if (stage() == nullptr) return source.id.empty() ? source.stem : source.id + " " + source.stem;
     return source.id.empty() ? stage()->title : source.id + " " + stage()->title;
+}
+
+const std::vector<Property>& Viewer::properties() const
+{
+    static const std::vector<Property> none;
+    return stage() != nullptr ? stage()->uniforms.properties : none;
+}
+
+const std::vector<live::ViewName>& Viewer::views() const
+{
+    static const std::vector<live::ViewName> none;
+    return current->stage() != nullptr ? current->stage()->views : none;
 }
 
 // --- its properties ---
@@ -116,10 +129,10 @@ void Viewer::resetAll()
 }
 
 // What the command line says, as values; later ones win.
-void Viewer::takeValues(const Stage& stage)
+void Viewer::takeValues()
 {
     for (const std::string& setting : given) {
-        for (const Property& p : stage.properties) {
+        for (const Property& p : properties()) {
             if (const std::optional<glm::vec4> value = valueIn(setting, p)) values[p.name] = *value;
         }
     }
@@ -151,14 +164,13 @@ void Viewer::resetCamera()
 
 void Viewer::turnLight(float pitch, float yaw)
 {
-    if (stage() == nullptr) return;
     const auto turn = [this](const Property& p, float degrees) {
         float angle = value(p).x + degrees;
         if (angle > 180.0f) angle -= 360.0f;
         if (angle < -180.0f) angle += 360.0f;
         set(p, glm::vec4(angle));
     };
-    for (const Property& p : stage()->properties) {
+    for (const Property& p : properties()) {
         if (p.name == "lightPitch") turn(p, pitch);
         if (p.name == "lightYaw") turn(p, yaw);
     }
@@ -189,14 +201,15 @@ void Viewer::fitTo(int width, int height)
 std::vector<Slot> Viewer::slots() const
 {
     if (stage() == nullptr) return {};
-    const Inputs& inputs = stage()->inputs;
-    std::vector<Slot> all = {{"mesh", &InputFiles::mesh, &inputs.mesh},
-                             {"albedo", &InputFiles::albedo, &inputs.albedo},
-                             {"height", &InputFiles::height, &inputs.height},
-                             {"normal", &InputFiles::normal, &inputs.normal},
-                             {"detail", &InputFiles::detail, &inputs.detail},
-                             {"detail normal", &InputFiles::detailNormal, &inputs.detailNormal}};
-    std::erase_if(all, [](const Slot& slot) { return slot.usual->empty(); });
+    const Inputs inputs = stage()->inputs();
+    static constexpr std::string InputFiles::*kTextures[] = {&InputFiles::albedo, &InputFiles::height,
+                                                             &InputFiles::normal, &InputFiles::detail,
+                                                             &InputFiles::detailNormal};
+    std::vector<Slot> all = {{"mesh", &InputFiles::mesh, inputs.mesh}};
+    for (std::size_t i = 0; i < inputs.textures.size(); ++i) {
+        all.push_back({kTextureOptions[i], kTextures[i], inputs.textures[i].file});
+    }
+    std::erase_if(all, [](const Slot& slot) { return slot.usual.empty(); });
     return all;
 }
 
@@ -212,7 +225,7 @@ void Viewer::ask()
 {
     if (stage() == nullptr) return;
     wanted.settings.clear();
-    for (const Property& p : stage()->properties) {
+    for (const Property& p : properties()) {
         if (isChanged(p)) wanted.settings.push_back(settingOf(p, value(p)));
     }
     current->look(wanted);
@@ -248,7 +261,7 @@ void Viewer::hear(const live::Session::News& news)
             std::fputs(current->problem()->text().c_str(), stderr);
         }
     }
-    if (news.stage && stage() != nullptr && !given.empty()) takeValues(*stage());
+    if (news.stage && stage() != nullptr && !given.empty()) takeValues();
     if (!news.picture) return;
     const live::Picture& picture = current->picture();
     own = {picture.drawn.width, picture.drawn.height, picture.pixels};

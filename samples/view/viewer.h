@@ -25,7 +25,7 @@ struct Slot
 {
     const char* name;  // "albedo", ...
     std::string InputFiles::*file;
-    const std::string* usual;  // the stage's own; empty: the stage does not read it
+    std::string usual;  // the stage's own
 };
 
 class Viewer
@@ -57,6 +57,8 @@ public:
     const live::Session& session() const { return *current; }
     const Stage* stage() const { return current->stage() != nullptr ? &current->stage()->stage : nullptr; }
     std::string name() const;  // "1.12 Bump scale"
+    const std::vector<Property>& properties() const;
+    const std::vector<live::ViewName>& views() const;  // for Look::show
 
     // --- its properties; a value is cut to its range ---
     glm::vec4 value(const Property& property) const;
@@ -120,7 +122,7 @@ public:
     int version = 0;                // of shown(): another number, another picture
 
 private:
-    void takeValues(const Stage& stage);
+    void takeValues();
     void hear(const live::Session::News& news);
     void refuse();
     void setBeside(Beside its, std::string name);

@@ -19,7 +19,7 @@ invariant gl_Position;
 
 void setObject(const MesaProgram& program, const Scene& scene, const Object& object)
 {
-    program.set("clipFromObject", firstLane(scene.object(object.worldFromObject).clipFromObject));
+    program.set("clipFromObject", firstLane(scene.uniforms(object.worldFromObject).object.clipFromObject));
     program.set("worldFromObject", object.worldFromObject);
     program.set("normalFromObject", normalMatrix(glm::mat3(object.worldFromObject)));
 }
@@ -178,10 +178,16 @@ struct Lights
     SpotLight spot;
 };
 
-Lights lightsOf(const Scene& s)
+struct LitScene : samples::DetailedMarble
 {
-    const Float strength = s.number("lightStrength");
-    return {{s.light.color * s.number("sunStrength"), s.light.dir},
+    Float sunStrength = number("sunStrength", 0.0f, {}, "");
+    Float lightStrength = number("lightStrength", 0.0f, {}, "");
+};
+
+Lights lightsOf(const LitScene& s)
+{
+    const Float strength = s.lightStrength;
+    return {{s.light.color * s.sunStrength, s.light.dir},
             {float3(0.25f, 0.5f, 1.0f) * strength, {-0.7f, 0.9f, -0.9f}, 1.6f},
             {float3(1.0f, 0.5f, 0.15f) * strength,
              {1.7f, 1.7f, -0.9f},
@@ -191,15 +197,18 @@ Lights lightsOf(const Scene& s)
              0.97f}};
 }
 
-Expected<MesaProgram> litProgram(Mesa& mesa, const Scene& s, const std::string& light)
+Expected<MesaProgram> litProgram(Mesa& mesa, const LitScene& s, const std::string& light)
 {
     const Expected<MesaProgram> program =
         mesa.makeProgram(kObjectTransform + kLitVertexProgram, kUnpackScaleNormal + light + kLitFragmentProgram);
     if (!program) return program;
-    for (const char* name : {"mainTex_ST", "detailTex_ST", "tint"}) program->set(name, s.vector(name));
-    for (const char* name : {"metallic", "smoothness", "bumpScale", "detailBumpScale"}) {
-        program->set(name, s.number(name));
-    }
+    program->set("mainTex_ST", s.mainTex_ST);
+    program->set("detailTex_ST", s.detailTex_ST);
+    program->set("tint", s.tint);
+    program->set("metallic", s.metallic);
+    program->set("smoothness", s.smoothness);
+    program->set("bumpScale", s.bumpScale);
+    program->set("detailBumpScale", s.detailBumpScale);
     program->set("cameraPos", s.worldSpaceCameraPos);
     return program;
 }
@@ -209,10 +218,11 @@ Expected<MesaProgram> litProgram(Mesa& mesa, const Scene& s, const std::string& 
 Expected<MesaDrawing> litScene(Mesa& mesa, const SceneData& data)
 {
     const Scene& scene = *data.stageScene;
-    const Lights lights = lightsOf(scene);
-    const Expected<MesaProgram> sun = litProgram(mesa, scene, kDirectionalLight);
-    const Expected<MesaProgram> lamp = litProgram(mesa, scene, kPointLight);
-    const Expected<MesaProgram> spot = litProgram(mesa, scene, kSpotLight);
+    const LitScene uniforms = scene.uniforms();
+    const Lights lights = lightsOf(uniforms);
+    const Expected<MesaProgram> sun = litProgram(mesa, uniforms, kDirectionalLight);
+    const Expected<MesaProgram> lamp = litProgram(mesa, uniforms, kPointLight);
+    const Expected<MesaProgram> spot = litProgram(mesa, uniforms, kSpotLight);
     for (const auto* program : {&sun, &lamp, &spot}) {
         if (!*program) return tl::unexpected(program->error());
     }
@@ -227,9 +237,9 @@ Expected<MesaDrawing> litScene(Mesa& mesa, const SceneData& data)
     spot->set("axis", lights.spot.axis);
     spot->set("cosOuter", lights.spot.cosOuter);
     spot->set("cosInner", lights.spot.cosInner);
-    const std::vector<MesaTexture> textures = {mesa.makeTexture(scene.mainTex), mesa.makeTexture(scene.detailTex),
-                                               mesa.makeTexture(scene.normalMap),
-                                               mesa.makeTexture(scene.detailNormalMap)};
+    const std::vector<MesaTexture> textures = {mesa.makeTexture(uniforms.mainTex), mesa.makeTexture(uniforms.detailTex),
+                                               mesa.makeTexture(uniforms.normalMap),
+                                               mesa.makeTexture(uniforms.detailNormalMap)};
     struct Pass
     {
         MesaProgram program;
@@ -251,6 +261,16 @@ Expected<MesaDrawing> litScene(Mesa& mesa, const SceneData& data)
 }
 
 // --- 2.06 Two lights ---
+
+namespace {
+
+struct Lamp : samples::PhongMaterial
+{
+    Float lamp = number("lamp", 0.0f, {}, "");
+    float3 lampPosition = vector("lampPosition", glm::vec3(0.0f), {}, "");
+};
+
+}  // namespace
 
 Expected<MesaDrawing> twoLights(Mesa& mesa, const SceneData& data)
 {
@@ -294,21 +314,24 @@ void main()
 }
 )glsl");
     if (!program) return tl::unexpected(program.error());
-    for (const char* name : {"bumpMap_ST", "color", "specColor"}) program->set(name, scene.vector(name));
-    for (const char* name : {"shininess", "tutorialForm"}) program->set(name, scene.number(name));
-    program->set("cameraPos", scene.worldSpaceCameraPos);
-    const float3 lampColor = float3(0.25f, 0.5f, 1.0f) * scene.number("lamp");
-    return [&mesa, &scene, lampColor, program = *program, objects = objectsOf(mesa, scene),
-            bumpMap = mesa.makeTexture(scene.normalMap)] {
+    const Lamp uniforms = scene.uniforms();
+    program->set("bumpMap_ST", uniforms.bumpMap_ST);
+    program->set("color", uniforms.color);
+    program->set("specColor", uniforms.specColor);
+    program->set("shininess", uniforms.shininess);
+    program->set("tutorialForm", uniforms.tutorialForm);
+    program->set("cameraPos", uniforms.worldSpaceCameraPos);
+    return [&mesa, &scene, uniforms, program = *program, objects = objectsOf(mesa, scene),
+            bumpMap = mesa.makeTexture(uniforms.bumpMap)] {
         for (const MesaObject& o : objects) {
             setObject(program, scene, o.object);
-            program.set("ambient", scene.vector("ambient").xyz());
-            program.set("lightPosition", float4(scene.light.dir, Float(0.0f)));
-            program.set("lightColor", scene.light.color * scene.number("sun"));
+            program.set("ambient", uniforms.ambient);
+            program.set("lightPosition", uniforms.worldSpaceLightPos0);
+            program.set("lightColor", uniforms.lightColor0);
             mesa.draw(program, o.mesh, {}, {bumpMap});
             program.set("ambient", float3(Float(0.0f)));
-            program.set("lightPosition", float4(scene.vector("lampPosition").xyz(), Float(1.0f)));
-            program.set("lightColor", lampColor);
+            program.set("lightPosition", float4(uniforms.lampPosition, 1.0f));
+            program.set("lightColor", float3(0.25f, 0.5f, 1.0f) * uniforms.lamp);
             mesa.draw(program, o.mesh, kAdditivePass, {bumpMap});
         }
     };
@@ -370,11 +393,14 @@ void main()
 }
 )glsl");
     if (!program) return tl::unexpected(program.error());
-    for (const char* name : {"tiling", "bumpScale"}) program->set(name, scene.number(name));
-    program->set("ambient", scene.vector("ambient").xyz());
-    program->set("lightColor", scene.light.color);
-    program->set("lightDir", scene.light.dir);
-    const std::vector<MesaTexture> textures = {mesa.makeTexture(scene.mainTex), mesa.makeTexture(scene.normalMap)};
+    const samples::TriplanarMaterial uniforms = scene.uniforms();
+    program->set("tiling", uniforms.tiling);
+    program->set("bumpScale", uniforms.bumpScale);
+    program->set("ambient", uniforms.ambient);
+    program->set("lightColor", uniforms.light.color);
+    program->set("lightDir", uniforms.light.dir);
+    const std::vector<MesaTexture> textures = {mesa.makeTexture(uniforms.mainTex),
+                                               mesa.makeTexture(uniforms.normalMap)};
     return [&mesa, &scene, textures, program = *program, objects = objectsOf(mesa, scene)] {
         for (const MesaObject& o : objects) {
             setObject(program, scene, o.object);

@@ -42,11 +42,8 @@ struct Interpolators
 };
 
 // As in stage 1.25, with the binormal per vertex.
-struct VertexProgram
+struct VertexProgram : DetailedMarble
 {
-    ObjectTransform object;
-    float4 mainTex_ST, detailTex_ST;
-
     Interpolators operator()(VertexData v) const
     {
         Interpolators i;
@@ -62,16 +59,11 @@ struct VertexProgram
 
 // As in stage 1.25, but with a choice of how normals are decoded and lit. A branch on a uniform costs next to nothing.
 template <class Light>
-struct FragmentProgram
+struct FragmentProgram : DetailedMarble
 {
-    Lighting lighting;
-    Decode decode;
-    float4 tint;
-    Float metallic, smoothness;
-    float3 worldSpaceCameraPos;
-    Light source;
-    sampler2D mainTex, detailTex, normalMap, detailNormalMap;
-    Float bumpScale, detailBumpScale;
+    Lighting lighting = {};
+    Decode decode = {};
+    Light source = {};
 
     float3 decoded(const float4& texel, Float scale) const
     {
@@ -82,14 +74,15 @@ struct FragmentProgram
     }
 
     float4 lit(const float3& albedo, const float3& specular, const float3& n, const float3& viewDir,
-               const UnityLight& light) const
+               const UnityLight& received) const
     {
-        if (lighting == Lighting::unity) return UNITY_BRDF_PBS(albedo, specular, smoothness, n, viewDir, light);
-        if (lighting == Lighting::exact) return UNITY_BRDF_PBS_Exact(albedo, specular, smoothness, n, viewDir, light);
+        if (lighting == Lighting::unity) return UNITY_BRDF_PBS(albedo, specular, smoothness, n, viewDir, received);
+        if (lighting == Lighting::exact)
+            return UNITY_BRDF_PBS_Exact(albedo, specular, smoothness, n, viewDir, received);
         const Float p = 1.0f - smoothness, a = max(p * p, Float(0.002f)), exponent = 2.0f / (a * a) - 2.0f;
-        const Float NdotL = saturate(dot(n, light.dir)), NdotH = saturate(dot(n, normalize(light.dir + viewDir)));
-        return float4((albedo + specular * ((exponent + 8.0f) * 0.125f * pow(NdotH, exponent))) * light.color * NdotL,
-                      1.0f);
+        const Float NdotL = saturate(dot(n, received.dir)), NdotH = saturate(dot(n, normalize(received.dir + viewDir)));
+        return float4(
+            (albedo + specular * ((exponent + 8.0f) * 0.125f * pow(NdotH, exponent))) * received.color * NdotL, 1.0f);
     }
 
     float4 operator()(Interpolators i) const
@@ -121,18 +114,22 @@ struct Choice
 template <class Light>
 void drawPass(const Scene& s, const Object& o, const Choice& choice, const Light& light, const RenderState& pass)
 {
-    const auto filtered = [&](sampler2D sampler) {
-        sampler.filter = choice.filter;
-        sampler.maxAnisotropy = choice.anisotropy;
-        return sampler;
-    };
-    s.draw(*o.mesh, VertexProgram{s.object(o.worldFromObject), s.vector("mainTex_ST"), s.vector("detailTex_ST")},
-           FragmentProgram<Light>{choice.lighting, choice.decode, s.vector("tint"), s.number("metallic"),
-                                  s.number("smoothness"), s.worldSpaceCameraPos, light, filtered(s.mainTex),
-                                  filtered(s.detailTex), filtered(s.normalMap), filtered(s.detailNormalMap),
-                                  s.number("bumpScale"), s.number("detailBumpScale")},
-           pass);
+    FragmentProgram<Light> fragment = s.uniforms(o.worldFromObject);
+    for (sampler2D* map : {&fragment.mainTex, &fragment.detailTex, &fragment.normalMap, &fragment.detailNormalMap}) {
+        map->filter = choice.filter;
+        map->maxAnisotropy = choice.anisotropy;
+    }
+    fragment.lighting = choice.lighting;
+    fragment.decode = choice.decode;
+    fragment.source = light;
+    s.draw(*o.mesh, VertexProgram(s.uniforms(o.worldFromObject)), fragment, pass);
 }
+
+struct Lights : DetailedMarble
+{
+    Float sunStrength = number("sunStrength", 0.0f, {}, "");
+    Float lightStrength = number("lightStrength", 0.0f, {}, "");
+};
 
 // The stage's objects under the stage's sun and lamp.
 void drawScene(const PreparedStage& stage, Frame& frame, const Choice& choice)
@@ -142,8 +139,9 @@ void drawScene(const PreparedStage& stage, Frame& frame, const Choice& choice)
     frame.clear(kBackground);
     stage.log->clear();
     const Scene s = stage.scene(frame, choice.width, choice.height, stage.camera());
-    const DirectionalLight sun = {s.light.color * s.number("sunStrength"), s.light.dir};
-    const PointLight lamp = {float3(0.25f, 0.5f, 1.0f) * s.number("lightStrength"), {-0.7f, 0.9f, -0.9f}, 1.6f};
+    const Lights lights = s.uniforms();
+    const DirectionalLight sun = {lights.light.color * lights.sunStrength, lights.light.dir};
+    const PointLight lamp = {float3(0.25f, 0.5f, 1.0f) * lights.lightStrength, {-0.7f, 0.9f, -0.9f}, 1.6f};
     for (const Object& o : s.objects) {
         drawPass(s, o, choice, sun, {});
         if (s.reaches("the lamp", lamp, o)) drawPass(s, o, choice, lamp, kAdditive);

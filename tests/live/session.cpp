@@ -1,4 +1,5 @@
 // A stage whose picture follows its file: what a person does to the file, and what must come of it.
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -109,8 +110,8 @@ TEST_CASE("live: a save changes the picture, an error leaves it, a fix brings th
     edited.save(replaced(edited.text, "    SV_POSITION position;\n", ""));
     REQUIRE(edited.awaitProblem());
     CHECK(edited.session->problem()->diagnostics.front().line > 0);
-    edited.save(replaced(edited.text, "float4 operator()(Interpolators i) const\n    {\n        const float3 albedo",
-                         "float3 operator()(Interpolators i) const\n    {\n        const float3 albedo"));
+    edited.save(replaced(edited.text, "float4 operator()(Interpolators i) const {\n        const float3 albedo",
+                         "float3 operator()(Interpolators i) const {\n        const float3 albedo"));
     CHECK(edited.until([&] {
         return edited.session->problem()->diagnostics.front().message ==
                "the fragment program must take the Interpolators that the vertex program returns, and return float4";
@@ -134,8 +135,7 @@ TEST_CASE("live: camera, properties and size stay over a save, and of two saves 
     // A property that is gone does not stand in the way.
     std::string without = replaced(edited.text, "float3 albedo = tex2D(mainTex, i.uv * tiling).xyz() * tint.xyz()",
                                    "float3 albedo = tex2D(mainTex, i.uv * tiling).xyz()");
-    without = replaced(without, "{\"tint\", glm::vec4(1.0f)", "{\"tone\", glm::vec4(1.0f)");
-    edited.save(replaced(without, "s.vector(\"tint\")", "s.vector(\"tone\")"));
+    edited.save(replaced(without, "float4 tint = rgba(\"tint\"", "float4 tone = rgba(\"tone\""));
     const int version = edited.session->picture().version;
     REQUIRE(edited.awaitVersion(version + 1));
     CHECK(edited.session->problem() == nullptr);
@@ -151,6 +151,28 @@ TEST_CASE("live: a setting that the stage does not have is one line")
     look.settings = {"tiling=2"};
     edited.session->look(look);
     CHECK(edited.until([&] { return edited.session->picture().version > 0; }));
+}
+
+TEST_CASE("live: a view of the frame is shown, views are listed, and one that is gone gives way to the picture")
+{
+    Look look{.width = 64, .height = 36, .camera = {}, .settings = {}, .files = {}, .threads = 1};
+    Edited edited(look);
+    REQUIRE(edited.awaitVersion(1));
+    const std::uint32_t picture = edited.middle();
+    const std::vector<ViewName>& views = edited.session->stage()->views;
+    CHECK(std::find(views.begin(), views.end(), ViewName{"depth", "0 near, 1 far"}) != views.end());
+    look.show = "uv";
+    edited.session->look(look);
+    REQUIRE(edited.until([&] { return edited.session->idle() && edited.middle() != picture; }));
+    CHECK((edited.middle() >> 16 & 0xffu) == 0);  // no blue
+    look.show = "nothing";
+    edited.session->look(look);
+    REQUIRE(edited.awaitProblem());
+    CHECK(edited.session->problem()->isRefusal);
+    CHECK(edited.session->problem()->diagnostics.front().message.find("no view 'nothing'") != std::string::npos);
+    edited.save(edited.withLine("return float4(1, 0, 0, 1);"));
+    REQUIRE(edited.awaitVersion(2));
+    CHECK(edited.middle() == 0xff0000ffu);
 }
 
 TEST_CASE("live: a shader that crashes or never ends is named by its line, and the version before comes back")
@@ -200,9 +222,9 @@ TEST_CASE("live: a shader that crashes or never ends is named by its line, and t
     }
     SUBCASE("a stack without end, on a thread that has no room to tell")
     {
-        std::string text = replaced(edited.text, "struct MyFragmentProgram\n",
+        std::string text = replaced(edited.text, "struct MyFragmentProgram :",
                                     "int deeper(volatile int* at)\n{\n    volatile int here[64] = {*at};\n"
-                                    "    return deeper(here) + here[1];\n}\n\nstruct MyFragmentProgram\n");
+                                    "    return deeper(here) + here[1];\n}\n\nstruct MyFragmentProgram :");
         edited.save(replaced(text, "        return float4(albedo",
                              "        volatile int at = 0;\n        if (deeper(&at) == 1) return 0.0f;\n"
                              "        return float4(albedo"));

@@ -1,6 +1,7 @@
 #include "page_diff.h"
 
 #include <algorithm>
+#include <cstring>
 #include <sstream>
 #include <vector>
 
@@ -16,16 +17,33 @@ std::string withoutIndentation(const std::string& line)
     return line.substr(std::min(line.size(), line.find_first_not_of(' ')));
 }
 
-std::vector<std::string> comparedLines(const std::string& source)
+constexpr const char* kNew = "// new";
+
+std::string withoutMark(const std::string& line)
+{
+    if (!line.ends_with(kNew)) return line;
+    return line.substr(0, line.find_last_not_of(' ', line.size() - std::strlen(kNew) - 1) + 1);
+}
+
+std::vector<std::string> linesOf(const std::string& source)
 {
     std::vector<std::string> lines;
     std::stringstream stream(source);
-    bool inHead = true;
-    for (std::string line; std::getline(stream, line);) {
+    for (std::string line; std::getline(stream, line);) lines.push_back(withoutMark(line));
+    return lines;
+}
+
+std::vector<std::string> comparedLines(const std::string& source)
+{
+    std::vector<std::string> lines;
+    bool inHead = true, inStage = false;
+    for (const std::string& line : linesOf(source)) {
         inHead = inHead && line.starts_with("//");
+        inStage = inStage || line.starts_with("Stage ");
         const std::string text = withoutIndentation(line);
-        const bool named = line.starts_with("Stage ") || text.starts_with("return {") || text.starts_with(".title") ||
-                           text.starts_with(".section") || text.starts_with(".news");
+        const bool named =
+            inStage && (line.starts_with("Stage ") || text.starts_with("return {") || text.starts_with(".title") ||
+                        text.starts_with(".section") || text.starts_with(".news"));
         if (!inHead && !named) lines.push_back(line);
     }
     return lines;
@@ -83,6 +101,44 @@ std::string difference(const std::string& before, const std::string& after)
         }
         gap = !near;
     }
+    return text;
+}
+
+std::string marked(const std::string& before, const std::string& after)
+{
+    constexpr std::size_t kColumns = 120;
+    const std::vector<Line> all = edits(linesOf(before), linesOf(after));
+    const auto isIn = [](const Line& line) { return line.mark != '-'; };
+    const auto isNew = [](const Line& line) { return line.mark == '+'; };
+    const auto lines = std::count_if(all.begin(), all.end(), isIn), news = std::count_if(all.begin(), all.end(), isNew);
+    std::string text;
+    bool inPrograms = false;
+    for (const Line& line : all) {
+        if (!isIn(line)) continue;
+        if (line.text.starts_with("}  // namespace")) inPrograms = false;
+        const bool says = line.text.find_first_not_of(" {}();") != std::string::npos;
+        const bool fits = line.text.size() + 2 + std::strlen(kNew) <= kColumns;
+        const bool mark = inPrograms && isNew(line) && says && fits && 2 * news <= lines;
+        text += line.text + (mark ? std::string("  ") + kNew : "") + "\n";
+        if (line.text == "namespace {") inPrograms = true;
+    }
+    return text;
+}
+
+bool sameMarks(const std::string& source, const std::string& other)
+{
+    std::stringstream a(source), b(other);
+    std::string line, otherLine;
+    while (std::getline(a, line)) {
+        if (!std::getline(b, otherLine) || line.ends_with(kNew) != otherLine.ends_with(kNew)) return false;
+    }
+    return !std::getline(b, otherLine);
+}
+
+std::string withoutMarks(const std::string& source)
+{
+    std::string text;
+    for (const std::string& line : linesOf(source)) text += line + "\n";
     return text;
 }
 

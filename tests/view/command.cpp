@@ -48,6 +48,7 @@ TEST_CASE("view: the copied command renders the very picture: a stage of the boo
     look.tangentScale = 0.07f;
     look.files.albedo = kNone;
     look.camera->fieldOfView = 33.0f;
+    look.show = "depth";
     viewer.change(look);
     hands.settle();
     checkSameBytes(hands, folder, "stages/relief_bumpiness_12_bump_scale");

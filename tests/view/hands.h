@@ -162,11 +162,11 @@ struct Hands
 
     const relief::samples::Property& property(const std::string& name) const
     {
-        for (const relief::samples::Property& p : viewer().stage()->properties) {
+        for (const relief::samples::Property& p : viewer().properties()) {
             if (p.name == name) return p;
         }
         FAIL("no such property");
-        return viewer().stage()->properties.front();
+        return viewer().properties().front();
     }
     float value(const std::string& name) const { return viewer().value(property(name)).x; }
 

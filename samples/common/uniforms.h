@@ -1,0 +1,174 @@
+// Uniforms: what a program reads that is the same for all of a draw. Each is declared where it is used, as a field with
+// its name, default, range and meaning, and gets its value by that name:
+//
+//     struct MyFragmentProgram : Uniforms
+//     {
+//         float4 tint = rgba("tint", glm::vec4(1.0f), "colour that the albedo is multiplied by");
+//         Float bumpScale = number("bumpScale", 0.5f, {-32, 32}, "the bumps' strength");
+//         sampler2D normalMap = normals("marble-heights.png");
+//         ...
+//
+// The user changes them by --set bumpScale=2 or in the window, and the textures by --normal FILE. A stage lists the
+// structs that declare any (declared(), below): what they declare is what can be set.
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "relief.h"
+#include "shading/lights.h"
+#include "shading/object_transform.h"
+#include "texture/import.h"
+
+namespace relief::samples {
+
+struct Range
+{
+    float minimum = 0.0f, maximum = 1.0f;
+};
+
+// A uniform that the user may change. Ranges and defaults are the tutorials'.
+struct Property
+{
+    enum class Kind : char
+    {
+        number,
+        vector,
+        color,   // linear
+        toggle,  // 0 or 1
+        choice   // 0, 1, ...: one of `choices`
+    };
+
+    std::string name;
+    Kind kind = Kind::number;
+    int components = 1;
+    glm::vec4 value{0.0f};                 // those components
+    float minimum = 0.0f, maximum = 1.0f;  // of each
+    std::string meaning;
+    std::vector<std::string> choices;
+
+    bool isWhole() const { return kind == Kind::toggle || kind == Kind::choice; }
+    bool operator==(const Property&) const = default;
+};
+
+// The textures that a stage can have, each with an option of its own: --albedo FILE ... --detail-normal FILE.
+enum class TextureSlot
+{
+    albedo,
+    height,
+    normal,
+    detail,
+    detailNormal
+};
+inline constexpr std::array kTextureOptions = {"albedo", "height", "normal", "detail", "detail-normal"};
+
+// What a stage reads from files. A texture's name is that of a file in assets/; empty: the stage has no such input;
+// kNone: it has one, but nothing is in it by default. The import settings are those of Unity's inspector.
+inline constexpr const char* kNone = "none";
+
+struct Inputs
+{
+    struct TextureInput
+    {
+        std::string file;
+        ImportSettings settings;
+    };
+
+    std::string mesh;             // "quad", "cube", "sphere", "terrain"; several with + between them stand side by side
+    float cubesTurnedBy = 35.0f;  // degrees about Y, where there are several shapes
+    std::array<TextureInput, kTextureOptions.size()> textures;  // by TextureSlot
+};
+
+// A normal map as DXT5nm: of a grey picture's heights, or of a picture of normals.
+ImportSettings normalMapSettings(float bumpiness, bool fadeOutMips = false);
+
+// What some structs of uniforms declare.
+struct Declared
+{
+    std::vector<Property> properties;  // in the order of their fields
+    Inputs inputs;                     // without a mesh
+};
+
+// A property as its field declares it.
+struct Declaration
+{
+    const char* name;
+    Property::Kind kind;
+    int components;
+    glm::vec4 value;
+    Range range;
+    const char* meaning;
+    std::initializer_list<const char*> choices = {};
+};
+
+// Where the values come from.
+class UniformSource
+{
+public:
+    virtual glm::vec4 value(const Declaration& declaration) const = 0;
+    virtual sampler2D texture(TextureSlot slot, const char* file, const ImportSettings& settings) const = 0;
+
+protected:
+    ~UniformSource() = default;
+};
+
+// What programs derive from. A Uniforms, as a Scene makes it, turns into any struct that is derived from it:
+// `MyFragmentProgram fragment = s.uniforms(worldFromObject)`.
+struct Uniforms
+{
+    const UniformSource* source;
+    ObjectTransform object;  // of what is drawn
+    float3 worldSpaceCameraPos;
+
+    // Fields that this initialises are float (Float), bool, int, and float2 to float4.
+    float number(const char* name, float value, Range range, const char* meaning) const;
+    bool toggle(const char* name, bool value, const char* meaning) const;
+    int choice(const char* name, int value, std::initializer_list<const char*> choices, const char* meaning) const;
+    glm::vec3 vector(const char* name, const glm::vec3& value, Range range, const char* meaning) const;
+    glm::vec4 vector(const char* name, const glm::vec4& value, Range range, const char* meaning) const;
+    glm::vec3 rgb(const char* name, const glm::vec3& value, const char* meaning) const;
+    glm::vec4 rgba(const char* name, const glm::vec4& value, const char* meaning) const;
+
+    // Textures: the default's name in assets/, or kNone. --albedo, --height, --normal, --detail, --detail-normal.
+    sampler2D albedo(const char* file) const;
+    sampler2D heights(const char* file) const;
+    sampler2D normals(const char* file, const ImportSettings& settings = normalMapSettings(0.05f)) const;
+    sampler2D detail(const char* file, const ImportSettings& settings = {}) const;
+    sampler2D detailNormals(const char* file, const ImportSettings& settings = normalMapSettings(0.1f)) const;
+
+    // Unity's default directional light, and two properties that turn it: lightPitch and lightYaw, in degrees.
+    UnityLight sun(float pitch, float yaw) const;
+
+    template <class Derived>
+    requires(std::is_base_of_v<Uniforms, Derived> && !std::is_same_v<Uniforms, Derived>) operator Derived() const
+    {
+        return Derived{*this};
+    }
+};
+
+namespace detail {
+
+template <class Struct>
+void declare(const Uniforms& uniforms)
+{
+    [[maybe_unused]] const Struct made = uniforms;
+}
+
+Declared declaredBy(std::span<void (*const)(const Uniforms&)> structs);
+
+}  // namespace detail
+
+// What these structs declare. Of a name that is declared twice, the last declaration counts, in the first one's place:
+// a struct may change a default of its base.
+template <class... Structs>
+Declared declared()
+{
+    static constexpr void (*kStructs[])(const Uniforms&) = {detail::declare<Structs>...};
+    return detail::declaredBy(kStructs);
+}
+
+}  // namespace relief::samples

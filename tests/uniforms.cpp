@@ -1,0 +1,119 @@
+#include "common/uniforms.h"
+
+#include <doctest/doctest.h>
+
+#include "common/render.h"
+#include "pipeline_fixture.h"
+
+namespace {
+
+using namespace relief;
+using namespace fixture;
+using namespace relief::samples;
+
+struct Material : Uniforms
+{
+    float4 tint = rgba("tint", {1.0f, 0.5f, 0.25f, 1.0f}, "a colour");
+    Float size = number("size", 2.0f, {0, 4}, "a number");
+    sampler2D mainTex = albedo(kNone);
+};
+
+struct Program : Material
+{
+    float size = number("size", 3.0f, {1, 8}, "another number");
+    bool on = toggle("on", true, "a toggle");
+    int which = choice("which", 1, {"first", "second"}, "a choice");
+    glm::vec3 direction = vector("direction", glm::vec3(0, 1, 0), {-1, 1}, "a vector");
+    sampler2D mainTex = albedo("marble-albedo.png");
+    sampler2D bumps = normals("marble-heights.png", normalMapSettings(0.2f));
+};
+
+Stage stageOf(std::function<void(const Scene&)> draw)
+{
+    Stage stage{.title = "test", .uniforms = declared<Program>(), .mesh = "quad", .draw = std::move(draw)};
+    stage.id = "9.99";
+    return stage;
+}
+
+std::string problemOf(const Stage& stage, const std::vector<std::string>& settings = {})
+{
+    const Expected<PreparedStage> prepared = PreparedStage::prepare(stage, settings);
+    if (!prepared) return prepared.error().message;
+    Framebuffer target = makeTarget(8, 8);
+    Frame frame(target, {1, kDefaultTileSize});
+    prepared->record(frame, 8, 8);
+    return prepared->problem(frame);
+}
+
+}  // namespace
+
+TEST_CASE("uniforms: what fields declare is a list, in their order, and a struct can change its base's")
+{
+    const Declared all = declared<Material, Program>();
+    REQUIRE(all.properties.size() == 5);
+    CHECK(all.properties[0].name == "tint");
+    CHECK(all.properties[0].kind == Property::Kind::color);
+    CHECK(all.properties[0].components == 4);
+    CHECK(all.properties[0].value == glm::vec4(1.0f, 0.5f, 0.25f, 1.0f));
+    CHECK(all.properties[1].name == "size");
+    CHECK(all.properties[1].value.x == 3.0f);
+    CHECK(all.properties[1].minimum == 1.0f);
+    CHECK(all.properties[1].maximum == 8.0f);
+    CHECK(all.properties[1].meaning == "another number");
+    CHECK(all.properties[2].kind == Property::Kind::toggle);
+    CHECK(all.properties[3].choices == std::vector<std::string>{"first", "second"});
+    CHECK(all.properties[3].maximum == 1.0f);
+    CHECK(all.properties[4].components == 3);
+
+    const auto& textures = all.inputs.textures;
+    CHECK(textures[0].file == "marble-albedo.png");
+    CHECK(textures[1].file.empty());
+    CHECK(textures[2].settings == normalMapSettings(0.2f));
+}
+
+TEST_CASE("uniforms: a program's fields have the values that the user gives")
+{
+    int drawn = 0;
+    const Stage stage = stageOf([&drawn](const Scene& s) {
+        const Program p = s.uniforms(translation({1, 2, 3}));
+        CHECK(p.size == 4.5f);
+        CHECK(!p.on);
+        CHECK(p.which == 0);
+        CHECK(p.direction == glm::vec3(0, 0.5f, 1));
+        CHECK(p.tint.y[0] == 0.5f);
+        CHECK(p.mainTex.texture != &Texture::white());
+        CHECK(p.Material::mainTex.texture == p.mainTex.texture);
+        CHECK(p.object.worldFromObject.columns[3].y[0] == 2.0f);
+        CHECK(p.worldSpaceCameraPos.z[0] == -1.5f);
+        ++drawn;
+    });
+    CHECK(problemOf(stage, {"size=4.5", "on=0", "which=0", "direction=0,0.5,1"}) == "");
+    CHECK(drawn == 1);
+}
+
+TEST_CASE("uniforms: a toggle and a choice are whole numbers, and the error names what there is")
+{
+    const Stage stage = stageOf([](const Scene&) {});
+    CHECK(problemOf(stage, {"on=0.5"}) == "--set on=0.5: on is one of 0 (off), 1 (on)");
+    CHECK(problemOf(stage, {"which=0.5"}) == "--set which=0.5: which is one of 0 (first), 1 (second)");
+    CHECK(problemOf(stage, {"which=2"}) == "--set which=2: 2 is outside the range of which, 0 to 1");
+}
+
+TEST_CASE("uniforms: a struct that the stage does not list is an error")
+{
+    struct Forgotten : Uniforms
+    {
+        float left = number("left", 1.0f, {0, 1}, "out");
+    };
+    const Stage stage = stageOf([](const Scene& s) { CHECK(Forgotten(s.uniforms()).left == 1.0f); });
+    CHECK(problemOf(stage) ==
+          "uniform 'left' is of a struct that the stage does not list: add it to .uniforms = declared<...>()");
+}
+
+TEST_CASE("uniforms: every stage lists what its programs declare")
+{
+    for (const Stage& stage : allStages()) {
+        CAPTURE(stage.id);
+        CHECK(problemOf(stage) == "");
+    }
+}
