@@ -116,16 +116,10 @@ bool Interface::row(const std::string& label, bool changed, bool hasReset)
     const float left = ImGui::GetCursorPosX(), right = left + ImGui::GetContentRegionAvail().x;
     bool pressed = false;
     ImGui::AlignTextToFramePadding();
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::PushStyleColor(ImGuiCol_Text, changed ? kOrange : kBright);
     ImGui::TextUnformatted(label.c_str());
     ImGui::PopStyleColor();
     place("label." + label);
-    if (changed) {
-        ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(corner.x - points(5.0f), corner.y + points(3.0f)),
-                                                  ImVec2(corner.x - points(2.0f), corner.y + button - points(3.0f)),
-                                                  kOrange, points(1.5f));
-    }
     const float column = left + points(116.0f);
     if (changed && hasReset) {
         ImGui::SameLine(right - button);
