@@ -202,9 +202,8 @@ std::vector<Slot> Viewer::slots() const
 {
     if (stage() == nullptr) return {};
     const Inputs inputs = stage()->inputs();
-    static constexpr std::string InputFiles::*kTextures[] = {&InputFiles::albedo, &InputFiles::height,
-                                                             &InputFiles::normal, &InputFiles::detail,
-                                                             &InputFiles::detailNormal};
+    static constexpr std::string InputFiles::*kTextures[] = {
+        &InputFiles::albedo, &InputFiles::height, &InputFiles::normal, &InputFiles::detail, &InputFiles::detailNormal};
     std::vector<Slot> all = {{"mesh", &InputFiles::mesh, inputs.mesh}};
     for (std::size_t i = 0; i < inputs.textures.size(); ++i) {
         all.push_back({kTextureOptions[i], kTextures[i], inputs.textures[i].file});
