@@ -73,7 +73,8 @@ void Interface::draw()
     }
     ImGui::BeginGroup();
     const float line = ImGui::GetFrameHeight() + points(6.0f);
-    const float above = (viewer.besideKind() == Viewer::Beside::nothing ? line : 2.0f * line) + points(10.0f);
+    const int lines = toolbarLines + (viewer.besideKind() != Viewer::Beside::nothing ? 1 : 0);
+    const float above = static_cast<float>(lines) * line + points(10.0f);
     part("toolbar", ImVec2(0.0f, above), ImVec2(padding.x, points(8.0f)), [&] { toolbar(); });
     part("picture", ImVec2(0.0f, size.y - above - status), ImVec2(0.0f, 0.0f), [&] { pictureArea(); });
     part("status", ImVec2(0.0f, status), ImVec2(padding.x, points(4.0f)), [&] { this->status(); });

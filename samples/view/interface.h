@@ -72,6 +72,7 @@ private:
     // toolbar.cpp
     void toolbar();
     void comparison();
+    bool flow(float width);
     void chooseView();
     void chooseBeside();
     void status();
@@ -101,7 +102,8 @@ private:
     std::string search, notice;
     bool panelShown = true, thumbnailsWanted = false, closeLists = false, searching = false;
     std::optional<float> newScale;
-    int chosenTab = -1;  // one that is to come to the front
+    int toolbarLines = 1;  // as many as its width needs
+    int chosenTab = -1;    // one that is to come to the front
 
     Picture picture;
     int pictureVersion = -1;

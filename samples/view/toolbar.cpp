@@ -11,38 +11,48 @@
 
 namespace relief::samples {
 
+// The next control on the same line where there is room for it, else on another one.
+bool Interface::flow(float width)
+{
+    const float after = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemSpacing.x;
+    const bool fits = after + width <= ImGui::GetWindowWidth() - points(4.0f);
+    if (fits) ImGui::SameLine();
+    if (!fits) ++toolbarLines;
+    return fits;
+}
+
 void Interface::toolbar()
 {
-    if (button(panelShown ? "Hide panel" : "Panel", "panel", "Shows and hides the panel (Tab)"))
+    const auto width = [](const char* text) {
+        return ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    };
+    const auto next = [&](const char* label, const std::string& name, const char* meaning) {
+        flow(width(label));
+        return button(label, name, meaning);
+    };
+    toolbarLines = 1;
+    if (button(panelShown ? "Hide panel" : "Panel", "panel", "Shows and hides the panel (Tab)")) {
         panelShown = !panelShown;
-    ImGui::SameLine();
+    }
+    flow(width("Show") + points(110.0f));
     chooseView();
-    ImGui::SameLine();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Beside");
-    ImGui::SameLine();
+    flow(width("Beside") + points(150.0f));
     chooseBeside();
-    ImGui::SameLine();
-    if (button("Keep", "keep", "Keeps this picture, to compare others with it")) {
+    if (next("Keep", "keep", "Keeps this picture, to compare others with it")) {
         viewer.keepSnapshot();
         notice = viewer.snapshots.empty() ? "" : viewer.snapshots.back().name + ": choose it under Beside";
     }
-    const auto width = [](const char* label) {
-        return ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
-    };
-    const float right = width("Copy command") + width("Save PNG") + width("Record turn") + width("Help");
-    const float after = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemSpacing.x;
-    ImGui::SameLine(std::max(ImGui::GetWindowWidth() - right - points(3.0f), after));
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float right = width("Copy command") + width("Save PNG") + width("Record turn") + width("Help") + 3.0f * gap;
+    if (flow(right)) ImGui::SameLine(ImGui::GetWindowWidth() - right - points(10.0f));
     if (button("Copy command", "copy", "Copies the command that renders this very picture (Ctrl+C)")) copyCommand();
-    ImGui::SameLine();
-    if (button("Save PNG", "save", "Writes this picture to a file (Ctrl+S)")) press('s', true, false);
-    ImGui::SameLine();
-    if (button("Record turn", "record", "Writes a turn of the camera, a PNG for each frame")) {
+    if (next("Save PNG", "save", "Writes this picture to a file (Ctrl+S)")) press('s', true, false);
+    if (next("Record turn", "record", "Writes a turn of the camera, a PNG for each frame")) {
         turnFolder = viewer.session().source().stem + "_turn";
+        dialogProblem.clear();
         dialog = Dialog::turn;
     }
-    ImGui::SameLine();
-    if (button("Help", "help", "Keys and mouse (F1)")) dialog = Dialog::help;
+    if (next("Help", "help", "Keys and mouse (F1)")) dialog = Dialog::help;
     if (viewer.besideKind() != Viewer::Beside::nothing) comparison();
 }
 
@@ -70,6 +80,9 @@ void Interface::chooseView()
 
 void Interface::chooseBeside()
 {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Beside");
+    ImGui::SameLine();
     const std::string shown = viewer.besideKind() == Viewer::Beside::nothing ? "nothing" : viewer.besideName();
     ImGui::SetNextItemWidth(points(150.0f));
     const bool open = ImGui::BeginCombo("##beside", shown.c_str(), ImGuiComboFlags_HeightLarge);

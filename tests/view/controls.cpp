@@ -130,6 +130,10 @@ TEST_CASE("view: camera, light, size, threads, tiles, lines, text")
     hands.choose("picture.text", "text.2\xc3\x97");
     CHECK(hands.application->window.scale() == 2.0f);
     CHECK(hands.place("panel").bottom - hands.place("panel").top > 40.0f);
+    for (const char* name : {"panel", "show", "beside", "keep", "copy", "save", "record", "help"}) {
+        CAPTURE(name);
+        CHECK(hands.place(name).right <= 1280.0f);  // it takes two lines, then
+    }
 }
 
 TEST_CASE("view: what lies behind the picture")
@@ -189,6 +193,9 @@ TEST_CASE("view: pictures beside pictures")
     hands.click("compare.difference", 0.1f);
     CHECK(viewer.showsDifference());
     CHECK(viewer.shown().colors == viewer.difference().picture.colors);
+    hands.click("compare.divider", 0.1f);
+    CHECK_FALSE(viewer.showsDifference());
+    hands.click("compare.difference", 0.1f);
     const std::vector<std::uint32_t> eight = viewer.shown().colors;
     hands.choose("enlargement", "enlargement.32");
     CHECK(viewer.enlargement() == 32);
@@ -304,6 +311,9 @@ TEST_CASE("view: copy, save, record")
     CHECK(first->colors != second->colors);
     CHECK_FALSE(std::filesystem::exists(own.folder / "turn/my_shader_002.png"));
 
+    hands.click("record");
+    hands.click("turn.cancel");
+    CHECK_FALSE(hands.has("turn.begin"));
     hands.click("record");
     hands.key(SDLK_ESCAPE);
     CHECK_FALSE(hands.has("turn.begin"));
