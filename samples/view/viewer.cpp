@@ -254,8 +254,8 @@ bool Viewer::update()
 void Viewer::hear(const live::Session::News& news)
 {
     if (news.problem && current->problem() != nullptr) {
-        if (current->problem()->isRefusal && current->picture().version > 0) {
-            refuse();
+        if (current->problem()->isRefusal) {
+            if (current->picture().version > 0) refuse();  // else the program ends with it
         } else {
             std::fputs(current->problem()->text().c_str(), stderr);
         }

@@ -67,6 +67,10 @@ Expected<void> Window::open(int width, int height, float scale)
     SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     if (SDL_Init(SDL_INIT_VIDEO) == 0) {
+        // Where there is no display SDL draws into nothing, which helps who asked for it.
+        if (SDL_GetCurrentVideoDriver() == std::string("offscreen") && SDL_getenv("SDL_VIDEODRIVER") == nullptr) {
+            return fail("view: there is no display; `relief render --watch` needs none");
+        }
         itsScale = scale > 0.0f ? scale : displayScale();
         SDL_Rect room = {};
         SDL_GetDisplayUsableBounds(0, &room);

@@ -120,6 +120,10 @@ TEST_CASE("live: the window opens, shows frames and closes under SDL's dummy dri
         CHECK_MESSAGE(outcome.code == 0, outcome.err);
     }
     checkRefused(folder, "view 9.99", "9.99");
+    if (outcome.code != 0) return;
+    checkRefused(folder, "view 1.09 --set nope=1", "nope");
+    checkRefused(folder, "view 1.09 --albedo none.png", "none.png");
+    checkRefused(folder, "view 1.09 --scale 9", "--scale");
 }
 
 TEST_CASE("live: bad input is one line")
