@@ -559,7 +559,13 @@ TEST_CASE("command line: a camera of the user's")
     CHECK(hash(" --camera 1,2,-3").size() > 16);
     CHECK(hash(" --camera 1,2,-3") != hash(" --camera 3,2,-1"));
     CHECK(hash(" --camera 1,2,-3") != hash(""));
-    for (const std::string camera : {"1,2", "1,2,", "1,2,3,4", "1,x,3", "0,0,0", "0,1,0", "nan,1,1", "1,1,1000"})
+    CHECK(hash(" --camera 1,2,-3,0,0,0") == hash(" --camera 1,2,-3"));
+    CHECK(hash(" --camera 1,2,-3,0,0,0,40,0.05,100") == hash(" --camera 1,2,-3"));
+    CHECK(hash(" --camera 1,2,-3,0,0.1,0") != hash(" --camera 1,2,-3"));
+    CHECK(hash(" --camera 1,2,-3,0,0,0,50") != hash(" --camera 1,2,-3"));
+    for (const std::string camera :
+         {"1,2", "1,2,", "1,2,3,4", "1,2,3,", "1,2,3,0,0,0,0", "1,2,3,0,0,0,40,1", "1,2,3,1,0,3",
+          "1,2,3,0,0,0,40,1,2,3", "1,x,3", "0,0,0", "0,1,0", "nan,1,1", "1,1,1000"})
         checkRefused(folder.path, "render 1.21 --camera " + camera, {"--camera", "X,Y,Z"});
 }
 

@@ -6,9 +6,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include <SDL.h>
+
 #include "commands.h"
 #include "live/session.h"
-#include "window.h"
+#include "view/pixels.h"
+#include "view/window.h"
 
 namespace relief::samples {
 
@@ -46,7 +49,8 @@ Expected<void> awaitPicture(live::Session& session, Window& window, int version)
         if (Clock::now() - begin > std::chrono::minutes(2)) return fail(session.source().path + ": no picture in time");
     }
     SDL_PumpEvents();
-    window.show(session.picture().pixels, "");
+    const live::Picture& picture = session.picture();
+    window.show({picture.drawn.width, picture.drawn.height, picture.pixels});
     return {};
 }
 

@@ -42,7 +42,10 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
                     "How normal maps are imported; may be repeated: storage=rgb|dxt5nm|dxt5, bumpiness=0.05, "
                     "filter=smooth|sobel, heights=automatic|yes|no, fade=on|off")
         ->type_name("NAME=VALUE");
-    command.add_option("--camera", options.camera, "Where the camera stands; it looks at the origin")
+    command
+        .add_option("--camera", options.camera,
+                    "Where the camera stands; it looks at the origin, or at a point that follows: X,Y,Z,X,Y,Z. A "
+                    "seventh number is the field of view in degrees, two more are the near and the far plane")
         ->type_name("X,Y,Z");
     command.add_flag("--show-tangents", options.showTangents, "Normals green, tangents red, binormals blue, as lines");
     command.add_option("--tangent-scale", options.tangentScale, "How long those lines are")
@@ -257,7 +260,7 @@ int runProgram(int argc, char** argv, const Program& program)
     RenderOptions options;
     bool json = false;
     std::string output, binormal;
-    int tileSize = kDefaultTileSize, frames = 0;
+    int tileSize = kDefaultTileSize;
     // Runs what the program has for a command.
     const auto run = [&result](const char* name, auto function, const auto&... arguments) {
         result = function != nullptr ? function(arguments...) : elsewhere(name);
@@ -289,12 +292,15 @@ int runProgram(int argc, char** argv, const Program& program)
     command->callback([&] { run("gallery", program.gallery, folder, options.threads); });
 
     command = app.add_subcommand("view", "Shows a stage in a window, and again whenever its file is saved");
-    addInputOptions(*command, options);
-    addShowOption(*command, options.show);
-    addCompilerOption(*command, options.compiler);
-    command->add_option("--frames", frames, "Close after this many frames; 0: when the user does")
+    ViewOptions viewOptions;
+    addInputOptions(*command, viewOptions.render);
+    addShowOption(*command, viewOptions.render.show);
+    addCompilerOption(*command, viewOptions.render.compiler);
+    command->add_option("--frames", viewOptions.frames, "Close after this many frames; 0: when the user does")
         ->check(CLI::Range(0, 1000000));
-    command->callback([&] { run("view", program.view, options, frames); });
+    command->add_option("--scale", viewOptions.scale, "How large text and controls are; default: the display's")
+        ->check(CLI::Range(0.5f, 4.0f));
+    command->callback([&] { run("view", program.view, viewOptions); });
 
     command = app.add_subcommand("hash", "Prints the hash of a stage's float colour and depth");
     addInputOptions(*command, options);

@@ -15,7 +15,7 @@ struct Program
     Expected<void> (*renderAtEverySave)(const RenderOptions& options, const std::string& output) = nullptr;
     Expected<void> (*newStage)(const std::string& path, const std::string& from) = nullptr;
     Expected<void> (*gallery)(const std::string& folder, int threads) = nullptr;
-    Expected<void> (*view)(const RenderOptions& options, int frames) = nullptr;
+    Expected<void> (*view)(const ViewOptions& options) = nullptr;
     Expected<void> (*hash)(const RenderOptions& options, int tileSize) = nullptr;
     Expected<void> (*signature)(const RenderOptions& options, const std::string& binormal) = nullptr;
     Expected<void> (*explain)(const RenderOptions& options, bool json) = nullptr;

@@ -15,7 +15,7 @@ Expected<void> hash(const RenderOptions& options, int tileSize);
 Expected<void> signature(const RenderOptions& options, const std::string& binormal);
 Expected<void> explain(const RenderOptions& options, bool json);
 Expected<void> gallery(const std::string& folder, int threads);
-Expected<void> view(const RenderOptions& options, int frames);
+Expected<void> view(const ViewOptions& options);
 
 // Renders into 8-bit sRGB colours, the picture or one of its views (common/inside.h), and writes a PNG.
 Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path,

@@ -13,11 +13,11 @@ constexpr auto showWindow = view;
 constexpr auto measureSaves = benchLive;
 #else
 constexpr Expected<void> (*measureSaves)(const LiveBenchOptions&) = nullptr;
-Expected<void> showWindow(const RenderOptions&, int)
+Expected<void> showWindow(const ViewOptions&)
 {
     return fail(
-        "view: this build has no window, SDL2 was not found; install libsdl2-dev and build again "
-        "(`relief render` works without it)");
+        "view: this build has no window, SDL2 or Dear ImGui was not found; install libsdl2-dev and libimgui-dev, "
+        "delete the build's CMakeCache.txt and build again (`relief render` works without them)");
 }
 #endif
 

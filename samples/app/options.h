@@ -16,11 +16,19 @@ struct RenderOptions
     int threads = 0;
     std::vector<std::string> settings;
     InputFiles files;
-    std::string camera;  // "X,Y,Z"; empty: the stage's
+    std::string camera;  // as parseCamera() takes it; empty: the stage's
     bool showTangents = false;
     float tangentScale = 0.1f, tangentOffset = 0.01f;
     std::string show;      // of `render` and `view`: a view (common/inside.h); empty: the picture
     std::string compiler;  // of live stages: "g++" or "clang++"; empty: the fastest
+};
+
+// What `view` shows, and how.
+struct ViewOptions
+{
+    RenderOptions render;
+    int frames = 0;      // close after so many pictures; 0: when the user does
+    float scale = 0.0f;  // of text and controls; 0: the display's
 };
 
 // What `bench --live` measures: the time from a save to the picture.

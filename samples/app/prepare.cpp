@@ -26,24 +26,61 @@ Expected<const Stage*> stageOf(const std::string& name)
     return live::namesFile(name) ? live::loadStage(name) : findStage(name);
 }
 
+std::string exactText(float number)
+{
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
+}
+
+bool isPossible(const Camera& camera)
+{
+    const glm::vec3 d = camera.position - camera.target;
+    const float square = d.x * d.x + d.y * d.y + d.z * d.z;
+    const glm::vec3& t = camera.target;
+    const bool near = t.x * t.x + t.y * t.y + t.z * t.z <= 8100.0f;
+    const bool planes = camera.nearPlane > 0.0f && camera.farPlane > camera.nearPlane && camera.farPlane <= 1e6f;
+    return near && planes && square >= 0.01f && square <= 8100.0f && (d.x != 0.0f || d.z != 0.0f) &&
+           camera.fieldOfView >= 1.0f && camera.fieldOfView <= 170.0f;
+}
+
 Expected<Camera> parseCamera(const std::string& text)
 {
     const Error error = {"--camera " + text +
-                         ": write X,Y,Z, such as 1,1,-2, 0.1 to 90 from the origin and not straight above or below"};
+                         ": write X,Y,Z, such as 1,1,-2, or with what it looks at X,Y,Z,X,Y,Z, then the field of view "
+                         "in degrees, then the two planes; 0.1 to 90 from there and not straight above or below"};
     Camera camera;
+    float* const numbers[] = {&camera.position.x,  &camera.position.y, &camera.position.z,
+                              &camera.target.x,    &camera.target.y,   &camera.target.z,
+                              &camera.fieldOfView, &camera.nearPlane,  &camera.farPlane};
     const char* at = text.data();
     const char* const end = at + text.size();
-    for (int i = 0; i < 3; ++i) {
-        const auto [rest, failure] = std::from_chars(at, end, camera.position[i]);
-        const bool separated = i == 2 ? rest == end : rest != end && *rest == ',';
-        if (failure != std::errc() || !separated) return tl::unexpected(error);
+    std::size_t count = 0;
+    for (float* const number : numbers) {
+        const auto [rest, failure] = std::from_chars(at, end, *number);
+        if (failure != std::errc() || (rest != end && *rest != ',')) return tl::unexpected(error);
+        ++count;
         at = rest + 1;
+        if (rest == end) break;
     }
-    const glm::vec3& p = camera.position;
-    const float square = p.x * p.x + p.y * p.y + p.z * p.z;
-    const bool overhead = p.x == 0.0f && p.z == 0.0f;
-    if (!(square >= 0.01f && square <= 8100.0f) || overhead) return tl::unexpected(error);
+    const bool complete = count == 3 || count == 6 || count == 7 || count == 9;
+    if (!complete || at != end + 1 || !isPossible(camera)) return tl::unexpected(error);
     return camera;
+}
+
+std::string cameraText(const Camera& camera)
+{
+    const Camera usual;
+    std::vector<float> numbers = {camera.position.x, camera.position.y, camera.position.z};
+    const bool planes = camera.nearPlane != usual.nearPlane || camera.farPlane != usual.farPlane;
+    const bool field = planes || camera.fieldOfView != usual.fieldOfView;
+    if (field || camera.target != usual.target) {
+        numbers.insert(numbers.end(), {camera.target.x, camera.target.y, camera.target.z});
+    }
+    if (field) numbers.push_back(camera.fieldOfView);
+    if (planes) numbers.insert(numbers.end(), {camera.nearPlane, camera.farPlane});
+    std::string text;
+    for (const float number : numbers) text += (text.empty() ? "" : ",") + exactText(number);
+    return text;
 }
 
 Expected<PreparedStage> prepare(const RenderOptions& options)

@@ -21,8 +21,18 @@ Expected<const Stage*> stageOf(const std::string& name);
 // The stage that the options name, with their settings and files.
 Expected<PreparedStage> prepare(const RenderOptions& options);
 
-// "X,Y,Z": a camera there that looks at the origin.
+// "X,Y,Z": a camera there that looks at the origin. Three more numbers: at that point instead; a seventh: the field of
+// view in degrees; two more: the near and the far plane.
 Expected<Camera> parseCamera(const std::string& text);
+
+// The shortest such text that gives the same camera, to the last bit.
+std::string cameraText(const Camera& camera);
+
+// Whether --camera takes it.
+bool isPossible(const Camera& camera);
+
+// The shortest text that is read as the same number.
+std::string exactText(float number);
 
 // What the options say of the picture, for a stage that is compiled while the program runs.
 Expected<live::Look> lookOf(const RenderOptions& options);

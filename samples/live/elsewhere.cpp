@@ -47,7 +47,7 @@ Expected<PrivateFolder> PrivateFolder::create()
 {
     return needsLinux();
 }
-Expected<std::unique_ptr<Session>> Session::open(const StageSource&, const Look&, Maker&, const SessionOptions&)
+Expected<std::unique_ptr<Session>> Session::open(const StageSource&, const Look&, Maker&, const std::string&)
 {
     return needsLinux();
 }
@@ -62,6 +62,18 @@ void Session::look(const Look&) {}
 Session::News Session::update(std::chrono::milliseconds)
 {
     return {};
+}
+std::vector<int> Session::descriptors() const
+{
+    return {};
+}
+std::chrono::milliseconds Session::patience() const
+{
+    return {};
+}
+std::string sampleFolder()
+{
+    return "";
 }
 std::string formatted(const std::vector<Diagnostic>&)
 {

@@ -166,6 +166,10 @@ void Session::hear(std::unique_ptr<Renderer>& renderer, News& news)
     if (heard.drawn) {
         strict = false;
         replaying = false;
+        if (trouble && trouble->isRefusal) {
+            trouble.reset();
+            news.problem = true;
+        }
         if (&renderer == &incoming) {
             previous = std::move(current);
             previousVersion = currentVersion;
@@ -215,6 +219,15 @@ std::vector<int> Session::descriptors() const
     return all;
 }
 
+std::chrono::milliseconds Session::patience() const
+{
+    std::chrono::milliseconds longest = watch.patience();
+    for (const Renderer* renderer : {incoming.get(), current.get()}) {
+        if (renderer != nullptr) longest = std::min(longest, renderer->patience());
+    }
+    return longest;
+}
+
 Session::News Session::update(std::chrono::milliseconds patience)
 {
     const auto until = Watch::Clock::now() + patience;
@@ -232,13 +245,9 @@ Session::News Session::update(std::chrono::milliseconds patience)
         const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Watch::Clock::now());
         if (news.any() || left.count() <= 0) return news;
 
-        std::chrono::milliseconds longest = std::min(left, watch.patience());
-        for (const Renderer* renderer : {incoming.get(), current.get()}) {
-            if (renderer != nullptr) longest = std::min(longest, renderer->patience());
-        }
         std::vector<pollfd> waits;
         for (const int descriptor : descriptors()) waits.push_back({descriptor, POLLIN, 0});
-        ::poll(waits.data(), waits.size(), static_cast<int>(longest.count()));
+        ::poll(waits.data(), waits.size(), static_cast<int>(std::min(left, this->patience()).count()));
     }
 }
 

@@ -68,8 +68,9 @@ public:
     // Does what is to be done now; waits up to `patience` for something to do.
     News update(std::chrono::milliseconds patience = std::chrono::milliseconds(0));
 
-    // For a poll() of one's own; then update().
+    // For a poll() of one's own, of at most so long; then update().
     std::vector<int> descriptors() const;
+    std::chrono::milliseconds patience() const;
 
     const Picture& picture() const { return shown; }
     const Description* stage() const { return description ? &*description : nullptr; }  // of the picture's version

@@ -1,0 +1,65 @@
+#include "view/application.h"
+
+#include <SDL.h>
+
+#include "prepare.h"
+
+namespace relief::samples {
+
+namespace {
+
+constexpr int kRest = 3;
+
+}  // namespace
+
+Expected<std::unique_ptr<Application>> Application::open(const ViewOptions& options)
+{
+    const Expected<live::StageSource> source = live::findSource(options.render.stage);
+    if (!source) return tl::unexpected(source.error());
+    const Expected<live::Look> look = lookOf(options.render);
+    if (!look) return tl::unexpected(look.error());
+    std::unique_ptr<Application> made(new Application);
+    Expected<std::unique_ptr<live::Maker>> maker = live::Maker::start();  // before there are threads or a window
+    if (!maker) return tl::unexpected(maker.error());
+    made->maker = std::move(*maker);
+    made->viewer = std::make_unique<Viewer>(*made->maker, options.render, *look);
+    if (options.render.size == RenderOptions().size) made->viewer->fit = Fit::wide;
+    if (const Expected<void> opened = made->viewer->open(*source); !opened) return tl::unexpected(opened.error());
+    if (const Expected<void> opened = made->window.open(1280, 800, options.scale); !opened) {
+        return tl::unexpected(opened.error());
+    }
+    made->window.setScale(made->window.scale());
+    made->interface = std::make_unique<Interface>(*made->viewer, made->window);
+    made->alarm = std::make_unique<Alarm>();
+    made->redraws = kRest;
+    return made;
+}
+
+bool Application::step()
+{
+    SDL_Event event;
+    while (SDL_PollEvent(&event) != 0) {
+        if (event.type == SDL_USEREVENT) continue;  // a session's: update() hears it
+        window.take(event);
+        interface->take(event);
+        redraws = kRest;
+    }
+    if (viewer->update()) redraws = kRest;
+    interface->update();
+    if (redraws == 0) return false;
+    --redraws;
+    window.setTitle("Relief: " + viewer->name());
+    window.beginFrame();
+    interface->draw();
+    window.endFrame();
+    if (interface->wantsMore()) redraws = std::max(redraws, 1);
+    return true;
+}
+
+void Application::wait()
+{
+    alarm->arm(viewer->descriptors(), viewer->patience());
+    SDL_WaitEvent(nullptr);
+}
+
+}  // namespace relief::samples
