@@ -88,7 +88,7 @@ struct MyFragmentProgram : DetailedMarble {
     }
 };
 
-// The base pass fills the depth buffer; an additive pass adds its light where that very depth is seen.  // new
+// The base pass fills the depth buffer; an additive pass adds its light where that very depth is seen.
 constexpr RenderState kBasePass = {};  // new
 constexpr RenderState kAdditivePass = {.depthTest = Compare::equal, .depthWrite = false, .blend = Blend::additive};
 

@@ -66,7 +66,7 @@ struct Lamp : Uniforms {                                                        
     float3 position = vector("lampPosition", glm::vec3(-0.8f, 0.1f, -0.6f), {-8, 8}, "in the world");  // new
 };
 
-// For additional light sources: added where the depth of the first pass is seen.  // new
+// For additional light sources: added where the depth of the first pass is seen.
 constexpr RenderState kForwardAdd = {.depthTest = Compare::equal, .depthWrite = false, .blend = Blend::additive};
 
 }  // namespace

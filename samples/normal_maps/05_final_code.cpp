@@ -67,7 +67,7 @@ struct frag : CgMaterial {
     }
 };
 
-// The base pass fills the depth buffer; an additive pass adds its light where that very depth is seen.  // new
+// The base pass fills the depth buffer; an additive pass adds its light where that very depth is seen.
 constexpr RenderState kAdditivePass = {.depthTest = Compare::equal, .depthWrite = false, .blend = Blend::additive};
 
 struct Lamp : Uniforms {                                                                                       // new

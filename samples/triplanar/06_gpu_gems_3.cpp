@@ -55,7 +55,7 @@ struct MyFragmentProgram : TriplanarMaterial {
     }
 };
 
-// By how much UDN's normal is another one.  // new
+// By how much UDN's normal is another one.
 struct ShowDifference {         // new
     MyFragmentProgram program;  // new
     Float exaggeration;         // new

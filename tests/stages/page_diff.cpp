@@ -116,7 +116,8 @@ std::string marked(const std::string& before, const std::string& after)
     for (const Line& line : all) {
         if (!isIn(line)) continue;
         if (line.text.starts_with("}  // namespace")) inPrograms = false;
-        const bool says = line.text.find_first_not_of(" {}();") != std::string::npos;
+        const bool says = line.text.find_first_not_of(" {}();") != std::string::npos &&
+                          !withoutIndentation(line.text).starts_with("//");
         const bool fits = line.text.size() + 2 + std::strlen(kNew) <= kColumns;
         const bool mark = inPrograms && isNew(line) && says && fits && 2 * news <= lines;
         text += line.text + (mark ? std::string("  ") + kNew : "") + "\n";
