@@ -38,8 +38,8 @@ struct Drawing
     {
         const auto& textures = (*findStage(stage))->uniforms.inputs.textures;
         InputFiles files;
-        if (!bumps) files.normal = kNone;
-        if (!textures[static_cast<std::size_t>(TextureSlot::albedo)].file.empty()) files.albedo = kNone;
+        if (!bumps) files.textures[TextureSlot::normal] = kNone;
+        if (!textures[TextureSlot::albedo].file.empty()) files.textures[TextureSlot::albedo] = kNone;
         Expected<PreparedStage> made = PreparedStage::prepare(**findStage(stage), settings, files);
         REQUIRE(made.has_value());
         prepared = std::move(*made);

@@ -66,9 +66,9 @@ TEST_CASE("uniforms: what fields declare is a list, in their order, and a struct
     CHECK(all.properties[4].components == 3);
 
     const auto& textures = all.inputs.textures;
-    CHECK(textures[0].file == "marble-albedo.png");
-    CHECK(textures[1].file.empty());
-    CHECK(textures[2].settings == normalMapSettings(0.2f));
+    CHECK(textures[TextureSlot::albedo].file == "marble-albedo.png");
+    CHECK(textures[TextureSlot::height].file.empty());
+    CHECK(textures[TextureSlot::normal].settings == normalMapSettings(0.2f));
 }
 
 TEST_CASE("uniforms: a program's fields have the values that the user gives")

@@ -113,11 +113,6 @@ void noteInterpolator(const WatchedBlock& b, unsigned lanes)
     }
 }
 
-float samplesOf(const FetchCounters& f)
-{
-    return static_cast<float>(f.nearest + f.bilinear + f.trilinear + f.anisotropic - f.constant);
-}
-
 // Quad by quad, so that no other quad of the block plays a part.
 void noteMipLevels(const WatchedBlock& b, unsigned lanes)
 {
@@ -125,7 +120,7 @@ void noteMipLevels(const WatchedBlock& b, unsigned lanes)
         alignas(Int) std::int32_t levels[kLanes];
         Int(-1).store(levels);
         shading.levels = levels;
-        const bool samples = samplesOf(b.runAgain(quad)) > 0.0f;
+        const bool samples = b.runAgain(quad).fetched() > 0;
         b.runAgain(quad | kWatched);
         shading.levels = nullptr;
         if (!samples) return;
@@ -185,7 +180,8 @@ void note(const WatchedBlock& b)
         case Sight::lanes:
             return b.put(live, static_cast<float>(countBits(live)));
         case Sight::samples:
-            return b.forQuads([&](unsigned quad) { b.add(live & quad, samplesOf(b.runAgain(quad)) / 4.0f); });
+            return b.forQuads(
+                [&](unsigned quad) { b.add(live & quad, static_cast<float>(b.runAgain(quad).fetched()) / 4.0f); });
         case Sight::time:
             return noteTime(b);
     }

@@ -22,6 +22,9 @@ struct FetchCounters
     std::uint64_t noDerivatives = 0;       // the coordinate was not compared with the neighbouring pixels': no level of
                                            // detail to choose, or one that the program gave (tex2Dlod, tex2Dgrad)
 
+    std::uint64_t samples() const { return nearest + bilinear + trilinear + anisotropic; }
+    std::uint64_t fetched() const { return samples() - constant; }  // where there was something to fetch
+
     FetchCounters& operator+=(const FetchCounters& other)
     {
         nearest += other.nearest;

@@ -30,13 +30,13 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
         .add_option("--mesh", options.files.mesh,
                     "An OBJ file in place of the stage's mesh, or quad, cube, sphere, low-sphere, terrain")
         ->type_name("FILE");
-    command.add_option("--albedo", options.files.albedo, "A picture (sRGB) in place of the albedo")->type_name("FILE");
-    command.add_option("--height", options.files.height, "A height map")->type_name("FILE");
-    command.add_option("--normal", options.files.normal, "A normal map (+Y), or its heights in grey")
-        ->type_name("FILE");
-    command.add_option("--detail", options.files.detail, "A detail albedo (sRGB)")->type_name("FILE");
-    command.add_option("--detail-normal", options.files.detailNormal, "A detail normal map (+Y), or its heights")
-        ->type_name("FILE");
+    static constexpr PerTexture<const char*> kMeanings = {
+        {"A picture (sRGB) in place of the albedo", "A height map", "A normal map (+Y), or its heights in grey",
+         "A detail albedo (sRGB)", "A detail normal map (+Y), or its heights"}};
+    for (std::size_t i = 0; i < kTextureOptions.size(); ++i) {
+        command.add_option(std::string("--") + kTextureOptions[i], options.files.textures[i], kMeanings[i])
+            ->type_name("FILE");
+    }
     command
         .add_option("--import", options.files.import,
                     "How normal maps are imported; may be repeated: storage=rgb|dxt5nm|dxt5, bumpiness=0.05, "

@@ -106,6 +106,7 @@ Expected<void> hash(const RenderOptions& options, int tileSize)
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = options.threads, .tileSize = tileSize});
     prepared->record(frame, size->width, size->height);
+    if (const std::string problem = prepared->problem(frame); !problem.empty()) return fail(problem);
     frame.run();
     std::printf("%s  %s\n", hexadecimal(hashOf(*target)).c_str(), prepared->stage->stem.c_str());
     return {};
@@ -134,6 +135,7 @@ Expected<void> signature(const RenderOptions& options, const std::string& binorm
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = 1});
     prepared->record(frame, 16, 16);
+    if (const std::string problem = prepared->problem(frame); !problem.empty()) return fail(problem);
     std::set<std::string> printed;
     for (int draw = 0; draw < frame.drawCount(); ++draw) {
         const std::string table = *outputSignature(frame, draw);

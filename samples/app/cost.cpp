@@ -43,8 +43,7 @@ std::string text(const char* format, double number)
 double Cost::fetchesPerFragment() const
 {
     const FetchCounters& f = statistics.fetches;
-    return static_cast<double>(f.nearest + f.bilinear + f.trilinear + f.anisotropic - f.constant) /
-           static_cast<double>(statistics.pixelsShaded);
+    return static_cast<double>(f.fetched()) / static_cast<double>(statistics.pixelsShaded);
 }
 
 double Cost::nanosecondsPerFragment() const

@@ -28,11 +28,7 @@ std::string arguments(const RenderOptions& options)
     for (const std::string& setting : options.files.import) add("import", setting);
     add("camera", options.camera);
     add("mesh", options.files.mesh);
-    add("albedo", options.files.albedo);
-    add("height", options.files.height);
-    add("normal", options.files.normal);
-    add("detail", options.files.detail);
-    add("detail-normal", options.files.detailNormal);
+    for (std::size_t i = 0; i < kTextureOptions.size(); ++i) add(kTextureOptions[i], options.files.textures[i]);
     if (options.showTangents) {
         all += " --show-tangents --tangent-scale " + std::to_string(options.tangentScale) + " --tangent-offset " +
                std::to_string(options.tangentOffset);

@@ -71,7 +71,7 @@ std::string countsTable(const std::vector<Counted>& all)
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Counted& c : all) {
         const Statistics& s = c.usage.statistics;
-        const std::uint64_t samples = samplesOf(s.fetches);
+        const std::uint64_t samples = s.fetches.samples();
         table += "| " + c.stage->id + " " + c.stage->title + " | " + std::to_string(s.draws) + " | " +
                  std::to_string(c.usage.passesLeftOut) + " | " +
                  std::to_string(c.usage.componentsDeclared - c.usage.componentsUsed) + " of " +
@@ -100,7 +100,7 @@ std::string countsCsv(const std::vector<Counted>& all)
              {s.draws, static_cast<std::uint64_t>(c.usage.passesLeftOut),
               static_cast<std::uint64_t>(c.usage.componentsDeclared),
               static_cast<std::uint64_t>(c.usage.componentsUsed), s.trianglesSubmitted, s.trianglesClipped, s.tiles,
-              s.tilesTouched, s.pixelsShaded, s.pixelsHidden, samplesOf(s.fetches), s.fetches.noDerivatives,
+              s.tilesTouched, s.pixelsShaded, s.pixelsHidden, s.fetches.samples(), s.fetches.noDerivatives,
               s.fetches.secondLevelSkipped, s.fetches.magnified, s.fetches.constant,
               static_cast<std::uint64_t>(c.usage.levelsWhole), static_cast<std::uint64_t>(c.usage.levelsBuilt)})
             lines += "," + std::to_string(n);

@@ -68,7 +68,7 @@ Expected<RenderOptions> renderOptions(const Subject& subject, const ReportOption
     RenderOptions all = {.stage = subject.stage, .size = options.size, .threads = 1, .settings = subject.settings};
     all.camera = kCamera;
     all.files.mesh = kMesh;
-    all.files.albedo = *albedo;
+    all.files.textures[TextureSlot::albedo] = *albedo;
     return all;
 }
 

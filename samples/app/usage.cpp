@@ -28,6 +28,7 @@ Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads)
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = threads});
     stage.record(frame, size.width, size.height);
+    if (const std::string problem = stage.problem(frame); !problem.empty()) return fail(problem);
     Usage usage;
     usage.statistics = frame.run();
     countLevels(*stage.inputs, *stage.log, usage);
@@ -38,11 +39,6 @@ Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads)
         for (int c = 0; c < components; ++c) usage.componentsUsed += *dependsOn(frame, draw, c) ? 1 : 0;
     }
     return usage;
-}
-
-std::uint64_t samplesOf(const FetchCounters& f)
-{
-    return f.nearest + f.bilinear + f.trilinear + f.anisotropic;
 }
 
 }  // namespace relief::samples

@@ -23,7 +23,4 @@ struct Usage
 
 Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads);
 
-// Every texture sample, of any filter.
-std::uint64_t samplesOf(const FetchCounters& fetches);
-
 }  // namespace relief::samples

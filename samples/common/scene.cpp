@@ -75,12 +75,10 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     } else {
         loaded->objects = arranged(inputs.mesh.empty() ? "quad" : inputs.mesh, inputs.cubesTurnedBy);
     }
-    const std::array<const std::string*, kTextureOptions.size()> files = {&users.albedo, &users.height, &users.normal,
-                                                                          &users.detail, &users.detailNormal};
     std::vector<Load> loads;
     for (std::size_t slot = 0; slot < kTextureOptions.size(); ++slot) {
         const auto& [file, settings] = inputs.textures[slot];
-        const Expected<std::string> path = choose(kTextureOptions[slot], file, *files[slot]);
+        const Expected<std::string> path = choose(kTextureOptions[slot], file, users.textures[slot]);
         if (!path) return tl::unexpected(path.error());
         if (path->empty()) continue;
         const bool isNormalMap = settings.kind == ImportSettings::Kind::normalMap;
@@ -146,7 +144,7 @@ glm::vec4 Scene::value(const Declaration& declaration) const
 
 sampler2D Scene::texture(TextureSlot slot, const char*, const ImportSettings&) const
 {
-    const Texture* const loaded = inputs.textures[static_cast<std::size_t>(slot)].get();
+    const Texture* const loaded = inputs.textures[slot].get();
     const bool normals = slot == TextureSlot::normal || slot == TextureSlot::detailNormal;
     const Texture& missing = slot == TextureSlot::albedo ? Texture::white()
                              : normals                   ? Texture::flatNormal()

@@ -30,7 +30,7 @@ struct LoadedInputs
 {
     std::optional<Mesh> usersMesh;
     std::vector<Object> objects;  // the user's mesh alone, or the stage's
-    std::array<std::shared_ptr<const Texture>, kTextureOptions.size()> textures;  // by TextureSlot
+    PerTexture<std::shared_ptr<const Texture>> textures;
 };
 
 // Loads what a stage reads. A file that cannot be read, or that the stage has no input for, is an error naming it.

@@ -43,7 +43,7 @@ public:
     }
     sampler2D texture(TextureSlot slot, const char* file, const ImportSettings& settings) const override
     {
-        declared.inputs.textures[static_cast<std::size_t>(slot)] = {file, settings};
+        declared.inputs.textures[slot] = {file, settings};
         return {};
     }
 

@@ -12,13 +12,13 @@
 // structs that declare any (declared(), below): what they declare is what can be set.
 #pragma once
 
-#include <array>
 #include <initializer_list>
 #include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "common/input_files.h"
 #include "relief.h"
 #include "shading/lights.h"
 #include "shading/object_transform.h"
@@ -55,17 +55,6 @@ struct Property
     bool operator==(const Property&) const = default;
 };
 
-// The textures that a stage can have, each with an option of its own: --albedo FILE ... --detail-normal FILE.
-enum class TextureSlot
-{
-    albedo,
-    height,
-    normal,
-    detail,
-    detailNormal
-};
-inline constexpr std::array kTextureOptions = {"albedo", "height", "normal", "detail", "detail-normal"};
-
 // What a stage reads from files. A texture's name is that of a file in assets/; empty: the stage has no such input;
 // kNone: it has one, but nothing is in it by default. The import settings are those of Unity's inspector.
 inline constexpr const char* kNone = "none";
@@ -80,7 +69,7 @@ struct Inputs
 
     std::string mesh;             // "quad", "cube", "sphere", "terrain"; several with + between them stand side by side
     float cubesTurnedBy = 35.0f;  // degrees about Y, where there are several shapes
-    std::array<TextureInput, kTextureOptions.size()> textures;  // by TextureSlot
+    PerTexture<TextureInput> textures;
 };
 
 // A normal map as DXT5nm: of a grey picture's heights, or of a picture of normals.

@@ -26,12 +26,14 @@ namespace relief::samples::live {
 
 void put(Message& m, const InputFiles& f)
 {
-    for (const std::string* s : {&f.mesh, &f.albedo, &f.height, &f.normal, &f.detail, &f.detailNormal}) m.put(*s);
+    m.put(f.mesh);
+    for (const std::string& file : f.textures) m.put(file);
     m.put(f.import);
 }
 void get(Message& m, InputFiles& f)
 {
-    for (std::string* s : {&f.mesh, &f.albedo, &f.height, &f.normal, &f.detail, &f.detailNormal}) m.get(*s);
+    m.get(f.mesh);
+    for (std::string& file : f.textures) m.get(file);
     m.get(f.import);
 }
 

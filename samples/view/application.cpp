@@ -8,7 +8,7 @@ namespace relief::samples {
 
 namespace {
 
-constexpr int kRest = 3;
+constexpr int kRest = 3;  // frames after an event, until what Dear ImGui shows of it no longer changes
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Expected<std::unique_ptr<Application>> Application::open(const ViewOptions& opti
     if (const Expected<void> opened = made->window.open(1280, 800, options.scale); !opened) {
         return tl::unexpected(opened.error());
     }
-    made->window.setScale(made->window.scale());
+    made->window.beginInterface();
     made->interface = std::make_unique<Interface>(*made->viewer, made->window);
     made->alarm = std::make_unique<Alarm>();
     made->redraws = kRest;

@@ -33,11 +33,9 @@ std::string renderCommand(const live::StageSource& source, const live::Look& loo
     // With =, since a number may begin with a minus.
     if (look.camera) command += " --camera=" + cameraText(*look.camera);
     const InputFiles& files = look.files;
-    const std::pair<const char*, const std::string&> inputs[] = {
-        {"--mesh", files.mesh},     {"--albedo", files.albedo}, {"--height", files.height},
-        {"--normal", files.normal}, {"--detail", files.detail}, {"--detail-normal", files.detailNormal}};
-    for (const auto& [option, file] : inputs) {
-        if (!file.empty()) add(option, file);
+    if (!files.mesh.empty()) add("--mesh", files.mesh);
+    for (std::size_t i = 0; i < kTextureOptions.size(); ++i) {
+        if (!files.textures[i].empty()) add(std::string("--") + kTextureOptions[i], files.textures[i]);
     }
     for (const std::string& setting : files.import) add("--import", setting);
     if (look.showTangents) {

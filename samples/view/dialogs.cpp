@@ -241,7 +241,7 @@ void Interface::dropped()
             continue;
         }
         live::Look look = viewer.look();
-        look.files.*slot.file = file;
+        slot.in(look.files) = file;
         if (mesh) look.camera.reset();
         viewer.change(look);
         answered = true;

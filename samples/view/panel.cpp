@@ -335,7 +335,7 @@ void Interface::inputSection()
 {
     for (const Slot& slot : viewer.slots()) {
         live::Look look = viewer.look();
-        std::string& file = look.files.*slot.file;
+        std::string& file = slot.in(look.files);
         ImGui::PushID(slot.name);
         if (row(slot.name, !file.empty(), true)) {
             file.clear();

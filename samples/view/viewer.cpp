@@ -202,11 +202,9 @@ std::vector<Slot> Viewer::slots() const
 {
     if (stage() == nullptr) return {};
     const Inputs inputs = stage()->inputs();
-    static constexpr std::string InputFiles::*kTextures[] = {
-        &InputFiles::albedo, &InputFiles::height, &InputFiles::normal, &InputFiles::detail, &InputFiles::detailNormal};
-    std::vector<Slot> all = {{"mesh", &InputFiles::mesh, inputs.mesh}};
+    std::vector<Slot> all = {{"mesh", {}, inputs.mesh}};
     for (std::size_t i = 0; i < inputs.textures.size(); ++i) {
-        all.push_back({kTextureOptions[i], kTextures[i], inputs.textures[i].file});
+        all.push_back({kTextureOptions[i], static_cast<TextureSlot>(i), inputs.textures[i].file});
     }
     std::erase_if(all, [](const Slot& slot) { return slot.usual.empty(); });
     return all;

@@ -23,9 +23,11 @@ enum class Fit
 // What a stage can read from a file.
 struct Slot
 {
-    const char* name;  // "albedo", ...
-    std::string InputFiles::*file;
-    std::string usual;  // the stage's own
+    const char* name;                    // "mesh", "albedo", ...
+    std::optional<TextureSlot> texture;  // none: the mesh
+    std::string usual;                   // the stage's own
+
+    std::string& in(InputFiles& files) const { return texture ? files.textures[*texture] : files.mesh; }
 };
 
 class Viewer

@@ -119,19 +119,22 @@ void Window::toggleFullScreen()
     SDL_SetWindowFullscreen(window, full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
 }
 
+void Window::beginInterface()
+{
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.ConfigInputTextCursorBlink = false;  // it would draw twice a second
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    ImGui_ImplSDL2_InitForSDLRenderer(window);
+    hasInterface = true;
+    setScale(itsScale);
+}
+
 void Window::setScale(float scale)
 {
     itsScale = scale;
-    if (!hasInterface) {
-        IMGUI_CHECKVERSION();
-        ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.ConfigInputTextCursorBlink = false;  // it would draw twice a second
-        io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-        ImGui_ImplSDL2_InitForSDLRenderer(window);
-        hasInterface = true;
-    }
     applyStyle(itsScale);
     fonts = loadFonts(itsScale);
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;

@@ -54,7 +54,9 @@ public:
     void setTitle(const std::string& title);
     void toggleFullScreen();
 
-    // Dear ImGui's context and letters. Once, and again with another scale.
+    // Dear ImGui, for what beginFrame() and endFrame() draw; letters and controls at the window's scale, or another
+    // one.
+    void beginInterface();
     void setScale(float scale);
     float scale() const { return itsScale; }
 

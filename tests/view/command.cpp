@@ -46,7 +46,7 @@ TEST_CASE("view: the copied command renders the very picture: a stage of the boo
     live::Look look = viewer.look();
     look.showTangents = true;
     look.tangentScale = 0.07f;
-    look.files.albedo = kNone;
+    look.files.textures[TextureSlot::albedo] = kNone;
     look.camera->fieldOfView = 33.0f;
     look.show = "depth";
     viewer.change(look);

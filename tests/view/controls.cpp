@@ -331,7 +331,7 @@ TEST_CASE("view: dropped files ask what they are")
     REQUIRE(writePixels(picture, red));
     hands.drop(picture);
     hands.click("drop.albedo");
-    CHECK(viewer.look().files.albedo == picture);
+    CHECK(viewer.look().files.textures[TextureSlot::albedo] == picture);
     CHECK(viewer.picture().colors != before);
     hands.drop(picture);
     hands.click("drop.cancel");
@@ -351,14 +351,14 @@ TEST_CASE("view: dropped files ask what they are")
     REQUIRE(hands.until([&] { return !viewer.refusal.empty(); }));
     hands.settle();
     CHECK(viewer.refusal.find("bad.png") != std::string::npos);
-    CHECK(viewer.look().files.albedo == picture);
+    CHECK(viewer.look().files.textures[TextureSlot::albedo] == picture);
     CHECK(viewer.picture().colors == good);
     hands.click("refusal.close");
     CHECK(viewer.refusal.empty());
 
     hands.click("section.Inputs");
     hands.click("reset.albedo");
-    CHECK(viewer.look().files.albedo.empty());
+    CHECK(viewer.look().files.textures[TextureSlot::albedo].empty());
     hands.choose("input.mesh", "input.cube");
     CHECK(viewer.look().files.mesh == "cube");
 }
