@@ -53,7 +53,7 @@ TEST_CASE("documents: every stage has a page of its stem, with its picture, and 
         const fs::path page = kSource / "docs" / stage.folder / (stage.stem + ".md");
         REQUIRE(fs::exists(page));
         const std::string text = contents(page);
-        CHECK(text.find("# " + stage.id + " " + stage.title) != std::string::npos);
+        CHECK(text.find("# " + stage.name()) != std::string::npos);
         CHECK(text.find(stage.folder + "/" + stage.stem + ".png") != std::string::npos);
         CHECK(fs::exists(kSource / "tests/golden" / stage.folder / (stage.stem + ".png")));
     }
@@ -86,7 +86,7 @@ TEST_CASE(
         const std::string text = contents(kSource / "samples" / stage.folder / (stage.stem + ".cpp"));
         const bool hasVariants = text.find("\ntemplate <") != std::string::npos;
         CHECK(std::count(text.begin(), text.end(), '\n') <= (hasVariants ? 170 : 120));
-        CHECK(text.starts_with("// " + stage.id + " " + stage.title));
+        CHECK(text.starts_with("// " + stage.name()));
         CHECK(text.find("\n// New: ") != std::string::npos);
         CHECK(text.find("\n// Was: ") != std::string::npos);
     }

@@ -27,7 +27,7 @@ inline Expected<Framebuffer> renderForGolden(const Stage& stage, Format format, 
 {
     // A golden is of one variant, whatever the CMake option BINORMAL_PER_FRAGMENT says.
     std::vector<std::string> settings;
-    for (const Property& p : stage.uniforms.properties) {
+    for (const Property& p : stage.properties()) {
         if (p.name == "binormalPerFragment" && p.choices.size() == 2) settings.push_back("binormalPerFragment=0");
     }
     const Expected<PreparedStage> prepared = PreparedStage::prepare(stage, settings);

@@ -36,10 +36,10 @@ struct Drawing
 {
     explicit Drawing(const std::string& stage, const std::vector<std::string>& settings, bool bumps = false)
     {
-        const auto& textures = (*findStage(stage))->uniforms.inputs.textures;
+        const Inputs inputs = (*findStage(stage))->inputs();
         InputFiles files;
         if (!bumps) files.textures[TextureSlot::normal] = kNone;
-        if (!textures[TextureSlot::albedo].file.empty()) files.textures[TextureSlot::albedo] = kNone;
+        if (!inputs.textures[TextureSlot::albedo].file.empty()) files.textures[TextureSlot::albedo] = kNone;
         Expected<PreparedStage> made = PreparedStage::prepare(**findStage(stage), settings, files);
         REQUIRE(made.has_value());
         prepared = std::move(*made);

@@ -191,8 +191,9 @@ TEST_CASE("vertex: a program reads the mesh's streams, and its results are store
         mesh.uvs.emplace_back(-v, v * 2);
     }
     mesh.indices = {0, 1, 2};
-    Expected<Draw> draw =
-        makeDraw(detail::kPrograms<PassOn, TakeAll>, eraseProgram(PassOn{}), eraseProgram(TakeAll{}), mesh, {}, {});
+    const PassOn passOn;
+    const TakeAll takeAll;
+    Expected<Draw> draw = makeDraw(detail::kPrograms<PassOn, TakeAll>, &passOn, &takeAll, mesh, {}, {});
     REQUIRE(draw.has_value());
     DrawGeometry& g = draw->geometry;
     CHECK(g.componentCount == 10);

@@ -134,11 +134,10 @@ inline Int sign(Int x)
 }
 
 // Between two plain numbers: a Float, or an Int where both are integers.
-template <class A, class B>
-requires std::is_arithmetic_v<A> && std::is_arithmetic_v<B>
+template <Number A, Number B>
 auto select(Mask m, A a, B b)
 {
-    using Lanes = std::conditional_t<std::is_integral_v<A> && std::is_integral_v<B>, Int, Float>;
+    using Lanes = std::conditional_t<WholeNumber<A> && WholeNumber<B>, Int, Float>;
     return select(m, Lanes(a), Lanes(b));
 }
 

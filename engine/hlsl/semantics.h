@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -37,7 +36,8 @@ struct Semantic : T
 
     Semantic() : T{} {}
     template <class U>
-    requires std::convertible_to<U, T> Semantic(const U& source) : T(source) {}
+    requires requires(const U& source, void (&take)(T)) { take(source); }
+    Semantic(const U& source) : T(source) {}
 };
 
 namespace semantic {
@@ -235,15 +235,15 @@ constexpr bool hasArray(std::index_sequence<i...>)
 inline constexpr int kMaxFields = 12;
 
 // The number of fields of a struct whose fields are all semantics (at most 12); -1 for anything else.
-template <class T, int n = kMaxFields>
+template <class T, int n = 0>
 constexpr int fieldCount()
 {
-    if constexpr (!std::is_aggregate_v<T> || n < 0) {
+    if constexpr (!std::is_aggregate_v<T>) {
         return -1;
     } else {
         using Fields = std::make_index_sequence<static_cast<std::size_t>(n)>;
-        if constexpr (!detail::takes<T>(Fields{})) {
-            return fieldCount<T, n - 1>();
+        if constexpr (n < kMaxFields && detail::takes<T, detail::AnySemantic>(Fields{})) {
+            return fieldCount<T, n + 1>();
         } else {
             constexpr bool otherField = detail::takes<T, detail::Anything>(Fields{});
             constexpr bool tooMany = detail::takes<T, detail::AnySemantic>(Fields{});  // more than kMaxFields
@@ -319,16 +319,29 @@ constexpr int positionCount(FieldList<Field...>)
     return (0 + ... + (Field::kIsPosition ? 1 : 0));
 }
 
+namespace detail {
+
+constexpr bool sameName(const char* a, const char* b)
+{
+    while (*a != '\0' && *a == *b) {
+        ++a;
+        ++b;
+    }
+    return *a == *b;
+}
+
+}  // namespace detail
+
 // Whether a semantic with its index stands twice in a list of fields.
 template <class... Field>
 constexpr bool namesTwice(FieldList<Field...>)
 {
     constexpr std::size_t count = sizeof...(Field);
-    const std::string_view names[count + 1] = {Field::kName..., ""};
+    const char* const names[count + 1] = {Field::kName..., ""};
     const int indices[count + 1] = {Field::kIndex..., 0};
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            if (names[i] == names[k] && indices[i] == indices[k]) return true;
+            if (indices[i] == indices[k] && detail::sameName(names[i], names[k])) return true;
         }
     }
     return false;

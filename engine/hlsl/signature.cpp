@@ -43,7 +43,7 @@ std::string right(std::string text, std::size_t width)
 
 }  // namespace
 
-std::string signatureOf(std::span<const Field> fields)
+std::string signatureOf(Fields fields)
 {
     std::string table =
         "// Output signature:\n"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <array>
-#include <span>
+#include <cstddef>
 #include <string>
 
 #include "hlsl/semantics.h"
@@ -20,6 +20,25 @@ struct Field
     Interpolation interpolation;
     bool isPosition, isInteger;
     bool isId;  // SV_VertexID, SV_InstanceID
+};
+
+// The fields of a struct, in order. What a std::span checks of its iterators would be most of a draw's compile time.
+class Fields
+{
+public:
+    constexpr Fields() = default;
+    template <std::size_t n>
+    constexpr Fields(const std::array<Field, n>& all) : first(all.data()), count(n)
+    {
+    }
+    constexpr const Field* begin() const { return first; }
+    constexpr const Field* end() const { return first + count; }
+    constexpr std::size_t size() const { return count; }
+    constexpr const Field& operator[](std::size_t i) const { return first[i]; }
+
+private:
+    const Field* first = nullptr;
+    std::size_t count = 0;
 };
 
 namespace detail {
@@ -42,7 +61,7 @@ inline constexpr auto kFields = detail::listFields(FieldsOf<Struct>{});
 // Registers are given out in the order of the fields. A field is never split over two registers; it goes to the first
 // one that has enough components left and the same interpolation (a register is interpolated in one way), else to a new
 // one.
-std::string signatureOf(std::span<const Field> fields);
+std::string signatureOf(Fields fields);
 
 template <class Interpolators>
 std::string signature()

@@ -77,8 +77,8 @@ struct VectorOperators<Mask, n>
 
 // The plain numbers that become a T by themselves.
 template <class N, class T>
-concept NumberFor = std::is_arithmetic_v<N> &&
-    (std::is_same_v<T, Float> || (std::is_same_v<T, Int> && std::integral<N>) || std::is_same_v<N, bool>);
+concept NumberFor = Number<N> &&
+    (std::is_same_v<T, Float> || (std::is_same_v<T, Int> && WholeNumber<N>) || std::is_same_v<N, bool>);
 
 // A vector of `n`, or a field that is one, to be joined with others: no number, since float3(x, 1) is a mistake.
 template <class V, class T, int n>

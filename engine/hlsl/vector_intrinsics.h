@@ -250,8 +250,7 @@ struct VectorIntrinsics<Mask, n>
     }
 
     // Between two values that are no vectors.
-    template <class A, class B>
-    requires std::is_arithmetic_v<A> && std::is_arithmetic_v<B>
+    template <Number A, Number B>
     friend auto select(const V& m, A a, B b)
     {
         using Lanes = decltype(select(Mask(), a, b));

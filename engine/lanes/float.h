@@ -9,6 +9,7 @@
 
 #include "lanes/int.h"
 #include "lanes/mask.h"
+#include "lanes/number.h"
 
 namespace relief::inline RELIEF_WIDTH {
 
@@ -16,9 +17,8 @@ class Float
 {
 public:
     Float() = default;
-    template <class Number>
-    requires std::is_arithmetic_v<Number>
-    constexpr Float(Number number) : value(static_cast<float>(number) - native::FloatVector{})  // keeps -0
+    template <Number N>
+    constexpr Float(N number) : value(static_cast<float>(number) - native::FloatVector{})  // keeps -0
     {
     }
     explicit Float(native::FloatVector native) : value(native) {}

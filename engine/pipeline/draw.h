@@ -33,9 +33,9 @@ struct Draw
     DrawGeometry geometry;
 };
 
-// The draw of a mesh, or a part of it: everything but where it goes. An error, one sentence, where the mesh does not
-// have what VertexData asks for.
-Expected<Draw> makeDraw(const Programs& programs, ErasedProgram vertexProgram, ErasedProgram fragmentProgram,
+// The draw of a mesh, or a part of it, with copies of its programs: everything but where it goes. An error, one
+// sentence, where the mesh does not have what VertexData asks for.
+Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, const void* fragmentProgram,
                         const Mesh& mesh, const RenderState& state, const MeshPart& part);
 
 // Vertices first ... first + count - 1 of all instances, into the geometry's arrays.

@@ -119,9 +119,16 @@ void Frame::setFrontCounterClockwise(bool counterClockwise)
     storage->frontCounterClockwise = counterClockwise;
 }
 
-Expected<void> Frame::record(Expected<Draw> draw)
+Expected<void> Frame::record(const Programs& programs, const void* vertexProgram, const void* fragmentProgram,
+                             const Mesh& mesh, const RenderState& state, const MeshPart& part, bool contractsProducts)
 {
     Storage& s = *storage;
+    Expected<Draw> draw =
+        contractsProducts
+            ? fail("draw of mesh '" + mesh.name +
+                   "': its programs are compiled without -ffp-contract=off, and would give other bits than elsewhere; "
+                   "add that flag (in CMake, link relief_engine, which passes it on)")
+            : makeDraw(programs, vertexProgram, fragmentProgram, mesh, state, part);
     if (!draw) {
         if (s.problem.empty()) s.problem = draw.error().message;
         return tl::unexpected(draw.error());

@@ -48,13 +48,8 @@ public:
                         const RenderState& state = {}, const MeshPart& part = {})
     {
         if constexpr (detail::checkPrograms<VertexProgram, FragmentProgram>()) {
-            if (detail::contractsProducts()) {
-                return record(fail("draw of mesh '" + mesh.name +
-                                   "': its programs are compiled without -ffp-contract=off, and would give other bits "
-                                   "than elsewhere; add that flag (in CMake, link relief_engine, which passes it on)"));
-            }
-            return record(makeDraw(detail::programsOf<VertexProgram, FragmentProgram>(), eraseProgram(vertexProgram),
-                                   eraseProgram(fragmentProgram), mesh, state, part));
+            return record(detail::programsOf<VertexProgram, FragmentProgram>(), &vertexProgram, &fragmentProgram, mesh,
+                          state, part, detail::contractsProducts());
         }
     }
 
@@ -84,7 +79,8 @@ public:
     Storage& internals() const { return *storage; }
 
 private:
-    Expected<void> record(Expected<Draw> draw);
+    Expected<void> record(const Programs& programs, const void* vertexProgram, const void* fragmentProgram,
+                          const Mesh& mesh, const RenderState& state, const MeshPart& part, bool contractsProducts);
 
     std::unique_ptr<Storage> storage;
 };

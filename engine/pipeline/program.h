@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -54,11 +55,23 @@ struct TriangleCorners
     const float* components[3];
 };
 
+// A copy of a program, or anything else, whose type is forgotten; and how to make one.
+using ErasedProgram = std::unique_ptr<const void, void (*)(const void*)>;
+
+struct ProgramCopier
+{
+    const void* (*copy)(const void* program);
+    void (*destroy)(const void* copied);
+
+    ErasedProgram operator()(const void* program) const { return {copy(program), destroy}; }
+};
+
 struct Programs
 {
-    std::span<const Field> vertexData, interpolators;
+    Fields vertexData, interpolators;
     int components;  // to interpolate: all but SV_POSITION's
     bool discards;
+    ProgramCopier copyVertexProgram, copyFragmentProgram;
 
     void (*shadeVertices)(const void* vertexProgram, VertexLanes& vertices);
 
@@ -67,16 +80,14 @@ struct Programs
                         const TriangleCorners* corners);
 };
 
-// A program, or anything else, whose type is forgotten.
-using ErasedProgram = std::unique_ptr<const void, void (*)(const void*)>;
-
-template <class Program>
-ErasedProgram eraseProgram(const Program& program)
-{
-    return {new Program(program), [](const void* p) { delete static_cast<const Program*>(p); }};
-}
-
 namespace detail {
+
+// Whether a fragment program can be called with these, and gives a colour.
+template <class FragmentProgram, class... Arguments>
+concept Shades = requires(const FragmentProgram& program, Arguments&&... arguments, void (&take)(float4))
+{
+    take(program(static_cast<Arguments&&>(arguments)...));
+};
 
 // A live compile (samples/live) inlines less: g++ then takes half the time, and the bits are the same.
 #if !defined(RELIEF_FLATTEN)
@@ -123,7 +134,7 @@ void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle,
         color.z.store(block.color[2]);
         color.w.store(block.color[3]);
     };
-    if constexpr (std::is_invocable_r_v<float4, const FragmentProgram&, Interpolators, Discard&>) {
+    if constexpr (Shades<FragmentProgram, Interpolators, Discard&>) {
         Discard discard;
         store(program(input(), discard));
         block.discarded = discard.discarded.bits();
@@ -140,7 +151,9 @@ RELIEF_FLATTEN void shadeBlocks(const void* fragmentProgram, std::span<ShadedBlo
     CornerComponents<interpolatedComponents(FieldsOf<Interpolators>{})> components;
     TriangleWeights triangle;
     TriangleEdges edges;
-    for (auto next = blocks.begin(); next != blocks.end();) {
+    ShadedBlock* next = blocks.data();
+    ShadedBlock* const end = next + blocks.size();
+    while (next != end) {
         const int current = next->covered.triangle;
         const auto& [a, b, c] = corners[current].components;
         components.set(a, b, c);
@@ -148,7 +161,7 @@ RELIEF_FLATTEN void shadeBlocks(const void* fragmentProgram, std::span<ShadedBlo
         if constexpr (components.kCount == 0) edges.set(batch, current);
         do {
             shadeBlock<Interpolators>(program, triangle, edges, components, *next);
-        } while (++next != blocks.end() && next->covered.triangle == current);
+        } while (++next != end && next->covered.triangle == current);
     }
 }
 
@@ -163,38 +176,57 @@ static inline bool contractsProducts()
     return a * a - b != 0.0f;
 }
 
-// The struct that a vertex program takes; void if it is no vertex program.
+// A type without const and &. The standard's traits, here and below, would each cost a compiler that reads precompiled
+// headers more than the check itself: with one of them it loads all that was made of it.
+template <class T>
+struct Bare
+{
+    using Type = T;
+};
+template <class T>
+struct Bare<const T> : Bare<T>
+{
+};
+template <class T>
+struct Bare<T&> : Bare<T>
+{
+};
+template <class T>
+struct Bare<T&&> : Bare<T>
+{
+};
+
+// The structs that a vertex program takes and gives; void if it is no vertex program.
 template <class Operator>
-struct VertexDataOf
+struct VertexTypesOf
 {
-    using Type = void;
+    using VertexData = void;
+    using Interpolators = void;
 };
-template <class Result, class Program, class VertexData>
-struct VertexDataOf<Result (Program::*)(VertexData) const>
+template <class Result, class Program, class Parameter>
+struct VertexTypesOf<Result (Program::*)(Parameter) const>
 {
-    using Type = std::remove_cvref_t<VertexData>;
+    using VertexData = typename Bare<Parameter>::Type;
+    using Interpolators = typename Bare<Result>::Type;
 };
-template <class Result, class Program, class VertexData>
-struct VertexDataOf<Result (Program::*)(VertexData) const noexcept>
+template <class Result, class Program, class Parameter>
+struct VertexTypesOf<Result (Program::*)(Parameter) const noexcept>
+    : VertexTypesOf<Result (Program::*)(Parameter) const>
 {
-    using Type = std::remove_cvref_t<VertexData>;
 };
 template <class VertexProgram>
-constexpr auto vertexDataOf()
+auto vertexTypes()
 {
     if constexpr (requires { &VertexProgram::operator(); }) {
-        return std::type_identity<typename VertexDataOf<decltype(&VertexProgram::operator())>::Type>{};
+        return VertexTypesOf<decltype(&VertexProgram::operator())>{};
     } else {
-        return std::type_identity<void>{};  // a template, or several of them
+        return VertexTypesOf<void>{};  // a template, or several of them
     }
 }
 template <class VertexProgram>
-using VertexDataFor = typename decltype(vertexDataOf<VertexProgram>())::type;
-
-template <class FragmentProgram, class Interpolators>
-inline constexpr bool kTakesInterpolators =
-    std::is_invocable_r_v<float4, const FragmentProgram&, Interpolators> ||
-    std::is_invocable_r_v<float4, const FragmentProgram&, Interpolators, Discard&>;
+using VertexDataFor = typename decltype(vertexTypes<VertexProgram>())::VertexData;
+template <class VertexProgram>
+using InterpolatorsFor = typename decltype(vertexTypes<VertexProgram>())::Interpolators;
 
 template <class FragmentProgram, class Interpolators>
 constexpr bool checkInterpolators()
@@ -210,7 +242,8 @@ constexpr bool checkInterpolators()
     static_assert(namesOnce, "a semantic and its index may stand only once among the Interpolators");
     static_assert(integersFlat, "integers among the Interpolators must be nointerpolation<...>");
     if constexpr (hasOnePosition && isFewEnough && namesOnce && integersFlat) {
-        constexpr bool takesInterpolators = kTakesInterpolators<FragmentProgram, Interpolators>;
+        constexpr bool takesInterpolators =
+            Shades<FragmentProgram, Interpolators> || Shades<FragmentProgram, Interpolators, Discard&>;
         static_assert(takesInterpolators,
                       "the fragment program must take the Interpolators that the vertex "
                       "program returns, and return float4");
@@ -225,10 +258,10 @@ template <class VertexProgram, class FragmentProgram>
 constexpr bool checkPrograms()
 {
     using VertexData = VertexDataFor<VertexProgram>;
-    constexpr bool isVertexProgram = !std::is_void_v<VertexData>;
+    constexpr bool isVertexProgram = !std::is_same_v<VertexData, void>;
     static_assert(isVertexProgram, "a vertex program must have: Interpolators operator()(VertexData v) const");
     if constexpr (isVertexProgram) {
-        using Interpolators = std::remove_cvref_t<std::invoke_result_t<const VertexProgram&, VertexData>>;
+        using Interpolators = InterpolatorsFor<VertexProgram>;
         constexpr bool vertexDataIsSemantics = fieldCount<VertexData>() >= 0;
         constexpr bool interpolatorsAreSemantics = fieldCount<Interpolators>() >= 0;
         static_assert(vertexDataIsSemantics,
@@ -248,13 +281,21 @@ constexpr bool checkPrograms()
     return false;
 }
 
+template <class Program>
+inline constexpr ProgramCopier kCopier = {
+    [](const void* program) -> const void* { return new Program(*static_cast<const Program*>(program)); },
+    [](const void* copied) { delete static_cast<const Program*>(copied); },
+};
+
 template <class VertexProgram, class FragmentProgram, class VertexData = VertexDataFor<VertexProgram>,
-          class Interpolators = std::remove_cvref_t<std::invoke_result_t<const VertexProgram&, VertexData>>>
+          class Interpolators = InterpolatorsFor<VertexProgram>>
 inline constexpr Programs kPrograms = {
     kFields<VertexData>,
     kFields<Interpolators>,
     interpolatedComponents(FieldsOf<Interpolators>{}),
-    std::is_invocable_r_v<float4, const FragmentProgram&, Interpolators, Discard&>,
+    Shades<FragmentProgram, Interpolators, Discard&>,
+    kCopier<VertexProgram>,
+    kCopier<FragmentProgram>,
     shadeVertices<VertexData, Interpolators, VertexProgram>,
     shadeBlocks<Interpolators, FragmentProgram>,
 };

@@ -51,7 +51,7 @@ std::size_t vertexCountOf(const std::vector<StreamView>& streams, const Mesh& me
 
 }  // namespace
 
-Expected<Draw> makeDraw(const Programs& programs, ErasedProgram vertexProgram, ErasedProgram fragmentProgram,
+Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, const void* fragmentProgram,
                         const Mesh& mesh, const RenderState& state, const MeshPart& part)
 {
     const std::string name = "draw of mesh '" + mesh.name + "': ";
@@ -67,7 +67,13 @@ Expected<Draw> makeDraw(const Programs& programs, ErasedProgram vertexProgram, E
 
     const std::vector<StreamView> streams = streamsOf(mesh);
     const std::size_t meshVertices = vertexCountOf(streams, mesh);
-    Draw draw = {&programs, std::move(vertexProgram), std::move(fragmentProgram), state, {}, {}, {}};
+    Draw draw = {&programs,
+                 programs.copyVertexProgram(vertexProgram),
+                 programs.copyFragmentProgram(fragmentProgram),
+                 state,
+                 {},
+                 {},
+                 {}};
     const std::size_t used = std::min<std::size_t>(part.count, rest);
     if (used == 0 || part.instances == 0) return draw;
     for (const Field& field : programs.vertexData) {

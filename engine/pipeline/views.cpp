@@ -17,7 +17,7 @@ std::string nameOf(const Field& field)
 
 // Any numbers, other ones in every field, component and lane. Integers and ids stay 0, as a program may count with
 // them.
-VertexLanes someVertices(std::span<const Field> vertexData, std::size_t changed)
+VertexLanes someVertices(Fields vertexData, std::size_t changed)
 {
     VertexLanes vertices;
     for (std::size_t f = 0; f < vertexData.size(); ++f) {

@@ -71,7 +71,7 @@ Expected<void> benchStages(const BenchOptions& options)
                 ("ratio to " + stages[0].stage->id + " (quartiles)").c_str());
     for (std::size_t i = 0; i < stages.size(); ++i) {
         const Cost& cost = (*costs)[i];
-        std::printf("%-34s %9llu %16.2f %9.3f %11.2f  ", (stages[i].stage->id + " " + stages[i].stage->title).c_str(),
+        std::printf("%-34s %9llu %16.2f %9.3f %11.2f  ", stages[i].stage->name().c_str(),
                     static_cast<unsigned long long>(cost.statistics.pixelsShaded), cost.fetchesPerFragment(),
                     quartiles(cost.seconds).median * 1e3, cost.nanosecondsPerFragment());
         if (options.instructions) std::printf("%21s  ", instructions[i].c_str());

@@ -27,7 +27,7 @@ nlohmann::json describe(const Property& p)
 nlohmann::json describe(const Stage& stage)
 {
     nlohmann::json properties = nlohmann::json::array();
-    for (const Property& p : stage.uniforms.properties) properties.push_back(describe(p));
+    for (const Property& p : stage.properties()) properties.push_back(describe(p));
     return {{"id", stage.id},           {"stem", stage.stem},      {"title", stage.title}, {"tutorial", stage.tutorial},
             {"section", stage.section}, {"properties", properties}};
 }
@@ -46,7 +46,7 @@ Expected<void> list(bool json)
     for (const Stage& stage : allStages()) {
         if (stage.tutorial != tutorial) std::printf("%s%s\n", tutorial.empty() ? "" : "\n", stage.tutorial.c_str());
         tutorial = stage.tutorial;
-        std::printf("  %s  %-26s %s\n", stage.id.c_str(), stage.stem.c_str(), stage.news.c_str());
+        std::printf("  %s  %-26s %s\n", stage.id.c_str(), stage.stem.c_str(), std::string(stage.news).c_str());
     }
     return {};
 }
@@ -119,7 +119,7 @@ Expected<void> signature(const RenderOptions& options, const std::string& binorm
     const bool perFragment = binormal.empty() ? kBinormalPerFragment : binormal == "fragment";
     const Expected<const Stage*> stage = stageOf(options.stage);
     if (!stage) return tl::unexpected(stage.error());
-    const std::vector<Property>& all = (*stage)->uniforms.properties;
+    const std::vector<Property> all = (*stage)->properties();
     const bool hasVariants =
         std::any_of(all.begin(), all.end(), [](const Property& p) { return p.name == "binormalPerFragment"; });
     if (!binormal.empty() && !hasVariants) {

@@ -82,8 +82,7 @@ Expected<void> explain(const RenderOptions& options, bool json)
         std::printf("%s\n", all.dump(2).c_str());
         return {};
     }
-    std::printf("%s %s at %dx%d\n", prepared->stage->id.c_str(), prepared->stage->title.c_str(), size->width,
-                size->height);
+    std::printf("%s at %dx%d\n", prepared->stage->name().c_str(), size->width, size->height);
     for (const Row& row : table) {
         std::printf("  %-30s %12llu  %s\n", row.name, static_cast<unsigned long long>(row.value), row.note.c_str());
     }

@@ -37,9 +37,13 @@ std::string page()
             tutorial = stage.tutorial;
         }
         const std::string file = stage.folder + "/" + stage.stem + ".png";
-        html += "<figure><a href=\"" + file + "\"><img src=\"" + file + "\" width=\"960\" height=\"540\" alt=\"" +
-                stage.title + "\"></a><figcaption><b>" + stage.id + " " + stage.title + "</b> (section " +
-                stage.section + ")<span class=\"new\">" + stage.news + "</span></figcaption></figure>\n";
+        html += "<figure><a href=\"" + file + "\"><img src=\"" + file + "\" width=\"960\" height=\"540\" alt=\"";
+        html += stage.title;
+        html += "\"></a><figcaption><b>" + stage.name() + "</b> (section ";
+        html += stage.section;
+        html += ")<span class=\"new\">";
+        html += stage.news;
+        html += "</span></figcaption></figure>\n";
     }
     return html + "</main>\n</html>\n";
 }
@@ -60,7 +64,7 @@ Expected<void> gallery(const std::string& folder, int threads)
         }
         ++done;
         if (terminal) {
-            std::printf("\r\033[K[%zu/%zu] %s %s", done, allStages().size(), stage.id.c_str(), stage.title.c_str());
+            std::printf("\r\033[K[%zu/%zu] %s", done, allStages().size(), stage.name().c_str());
             std::fflush(stdout);
         }
         const Expected<PreparedStage> prepared = PreparedStage::prepare(stage);

@@ -72,17 +72,16 @@ std::string countsTable(const std::vector<Counted>& all)
     for (const Counted& c : all) {
         const Statistics& s = c.usage.statistics;
         const std::uint64_t samples = s.fetches.samples();
-        table += "| " + c.stage->id + " " + c.stage->title + " | " + std::to_string(s.draws) + " | " +
-                 std::to_string(c.usage.passesLeftOut) + " | " +
-                 std::to_string(c.usage.componentsDeclared - c.usage.componentsUsed) + " of " +
-                 std::to_string(c.usage.componentsDeclared) + " | " +
-                 share(s.trianglesSubmitted - s.trianglesClipped, s.trianglesSubmitted) + " | " +
-                 share(s.tiles - s.tilesTouched, s.tiles) + " | " +
-                 share(s.pixelsHidden, s.pixelsHidden + s.pixelsShaded) + " | " + std::to_string(samples) + " | " +
-                 share(s.fetches.noDerivatives, samples) + " | " + share(s.fetches.secondLevelSkipped, samples) +
-                 " | " + share(s.fetches.magnified, samples) + " | " + share(s.fetches.constant, samples) + " | " +
-                 std::to_string(c.usage.levelsWhole - c.usage.levelsBuilt) + " of " +
-                 std::to_string(c.usage.levelsWhole) + " |\n";
+        table +=
+            "| " + c.stage->name() + " | " + std::to_string(s.draws) + " | " + std::to_string(c.usage.passesLeftOut) +
+            " | " + std::to_string(c.usage.componentsDeclared - c.usage.componentsUsed) + " of " +
+            std::to_string(c.usage.componentsDeclared) + " | " +
+            share(s.trianglesSubmitted - s.trianglesClipped, s.trianglesSubmitted) + " | " +
+            share(s.tiles - s.tilesTouched, s.tiles) + " | " + share(s.pixelsHidden, s.pixelsHidden + s.pixelsShaded) +
+            " | " + std::to_string(samples) + " | " + share(s.fetches.noDerivatives, samples) + " | " +
+            share(s.fetches.secondLevelSkipped, samples) + " | " + share(s.fetches.magnified, samples) + " | " +
+            share(s.fetches.constant, samples) + " | " + std::to_string(c.usage.levelsWhole - c.usage.levelsBuilt) +
+            " of " + std::to_string(c.usage.levelsWhole) + " |\n";
     }
     return table;
 }
@@ -118,7 +117,7 @@ Expected<std::vector<Switched>> switchedStages(const ReportOptions& options)
         const RenderOptions render = renderOptions(id, options);
         const Expected<PreparedStage> prepared = prepare(render);
         if (!prepared) return tl::unexpected(prepared.error());
-        Switched s{.stage = id, .title = prepared->stage->title};
+        Switched s{.stage = id, .title = std::string(prepared->stage->title)};
         Expected<void> result;
         const auto count = [&](const std::string& program, const std::string& generic) {
             showProgress("counting the instructions of " + s.stage + " " + generic);

@@ -28,7 +28,9 @@ std::string choicesOf(const Property& property)
     return all;
 }
 
-Expected<void> set(const Stage& stage, std::vector<Property>& properties, const std::string& setting)
+}  // namespace
+
+Expected<void> applySetting(const std::string& setting, const std::string& stageId, std::vector<Property>& properties)
 {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) return fail("--set " + setting + ": write name=value");
@@ -40,7 +42,7 @@ Expected<void> set(const Stage& stage, std::vector<Property>& properties, const 
         names += (names.empty() ? "" : ", ") + p.name;
     }
     if (property == nullptr) {
-        return fail("--set " + setting + ": stage " + stage.id + " has no property '" + name + "'; it has " +
+        return fail("--set " + setting + ": stage " + stageId + " has no property '" + name + "'; it has " +
                     (names.empty() ? "none" : names));
     }
 
@@ -71,16 +73,14 @@ Expected<void> set(const Stage& stage, std::vector<Property>& properties, const 
     return {};
 }
 
-}  // namespace
-
 Expected<PreparedStage> PreparedStage::prepare(const Stage& stage, const std::vector<std::string>& settings,
                                                const InputFiles& files)
 {
     PreparedStage prepared;
     prepared.stage = &stage;
-    prepared.properties = stage.uniforms.properties;
+    prepared.properties = stage.properties();
     for (const std::string& setting : settings) {
-        const Expected<void> result = set(stage, prepared.properties, setting);
+        const Expected<void> result = applySetting(setting, stage.id, prepared.properties);
         if (!result) return tl::unexpected(result.error());
     }
     Expected<std::unique_ptr<LoadedInputs>> inputs = loadInputs(stage.inputs(), files);

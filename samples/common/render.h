@@ -13,13 +13,15 @@ namespace relief::samples {
 // The background of all stages, linear.
 inline constexpr glm::vec4 kBackground{0.035f, 0.04f, 0.05f, 1.0f};
 
+// Sets one of these properties of a stage: "name=value", where a value is a number or, for colours and vectors, up to
+// four of them with commas. An unknown name, or a value that is no number or out of the property's range, is an error.
+Expected<void> applySetting(const std::string& setting, const std::string& stageId, std::vector<Property>& properties);
+
 // A stage with its inputs loaded and its properties as the user wants them; can be drawn again and again.
 class PreparedStage
 {
 public:
-    // Each of `settings` is "name=value", where a value is a number or, for colours and vectors, up to four of them
-    // with commas. An unknown name, a value that is no number or out of the property's range, or a file that cannot be
-    // read is an error.
+    // A setting that does not fit, or a file that cannot be read, is an error.
     static Expected<PreparedStage> prepare(const Stage& stage, const std::vector<std::string>& settings = {},
                                            const InputFiles& files = {});
 

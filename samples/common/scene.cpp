@@ -214,7 +214,7 @@ void Scene::showTangents(const TangentSpaceVisualizer& visualizer) const
 
 // What comes before a draw: notes where the object stands, turns its front faces if its matrix mirrors it, and gives
 // its mesh the uvs and tangents that the vertex program reads.
-const Mesh& Scene::prepare(const Mesh& drawn, std::span<const Field> vertexData, const float4x4* worldFromObject) const
+const Mesh& Scene::prepare(const Mesh& drawn, Fields vertexData, const float4x4* worldFromObject) const
 {
     bool mirrored = false;
     if (worldFromObject != nullptr) {

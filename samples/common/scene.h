@@ -127,7 +127,7 @@ public:
     const Mesh& withTangents(const Mesh& mesh) const;
 
 private:
-    const Mesh& prepare(const Mesh& drawn, std::span<const Field> vertexData, const float4x4* worldFromObject) const;
+    const Mesh& prepare(const Mesh& drawn, Fields vertexData, const float4x4* worldFromObject) const;
     Rectangle cellAt(int column, int columns, int row, int rows) const;
     void cut(const Viewport& viewport, const Rectangle& scissor) const;
     void leftOut(const std::string& name, const Object& object) const;

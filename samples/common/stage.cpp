@@ -1,12 +1,23 @@
 #include "common/stage.h"
 
-#include "common/stage_names.h"
-
 namespace relief::samples {
 
-Expected<const Stage*> findStage(const std::string& name)
+std::string Stage::name() const
 {
-    return findByName(allStages(), name);
+    return id + " " + std::string(title);
+}
+
+std::vector<Property> Stage::properties() const
+{
+    return uniforms.list().properties;
+}
+
+Inputs Stage::inputs() const
+{
+    Inputs all = uniforms.list().inputs;
+    all.mesh = mesh;
+    all.cubesTurnedBy = cubesTurnedBy;
+    return all;
 }
 
 }  // namespace relief::samples

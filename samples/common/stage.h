@@ -2,8 +2,8 @@
 // CMake writes from samples/CMakeLists.txt lists them all.
 #pragma once
 
-#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/materials.h"
@@ -13,14 +13,15 @@ namespace relief::samples {
 
 struct Stage
 {
-    std::string title;
-    std::string section;  // of the tutorial
-    std::string news;     // what is new, in one line
-    Declared uniforms;    // declared<MyVertexProgram, MyFragmentProgram>()
-    std::string mesh;     // as in Inputs; empty: the stage draws a shape of its own
-    float cubesTurnedBy = Inputs().cubesTurnedBy;
+    // What the file gives. Literals and functions: the compiler of a stage has little to do with them.
+    std::string_view title;
+    std::string_view section;  // of the tutorial
+    std::string_view news;     // what is new, in one line
+    UniformStructs uniforms;   // declared<MyVertexProgram, MyFragmentProgram>()
+    std::string_view mesh;     // as in Inputs; empty: the stage draws a shape of its own
+    float cubesTurnedBy = 35.0f;
     Camera camera;
-    std::function<void(const Scene&)> draw;
+    void (*draw)(const Scene&) = nullptr;
 
     // Filled in by the registry.
     std::string id;        // "1.06"
@@ -28,14 +29,11 @@ struct Stage
     std::string folder;    // "bumpiness"
     std::string tutorial;  // "Rendering 6, Bumpiness (Catlike Coding)"
 
-    // All that it reads from files.
-    Inputs inputs() const
-    {
-        Inputs all = uniforms.inputs;
-        all.mesh = mesh;
-        all.cubesTurnedBy = cubesTurnedBy;
-        return all;
-    }
+    std::string name() const;  // "1.06 Rotated tangent"
+
+    // What its programs declare, and all that it reads from files.
+    std::vector<Property> properties() const;
+    Inputs inputs() const;
 };
 
 // All stages, in the order of the book. Built once.

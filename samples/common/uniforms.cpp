@@ -63,11 +63,11 @@ ImportSettings normalMapSettings(float bumpiness, bool fadeOutMips)
             .fadeLast = 5};
 }
 
-Declared detail::declaredBy(std::span<void (*const)(const Uniforms&)> structs)
+Declared UniformStructs::list() const
 {
     Declared declared;
     const Listing listing(declared);
-    for (const auto make : structs) make({.source = &listing, .object = {}, .worldSpaceCameraPos = {}});
+    for (std::size_t i = 0; i < count; ++i) declare[i]({.source = &listing, .object = {}, .worldSpaceCameraPos = {}});
     return declared;
 }
 

@@ -13,7 +13,6 @@
 #pragma once
 
 #include <initializer_list>
-#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -147,17 +146,29 @@ void declare(const Uniforms& uniforms)
     [[maybe_unused]] const Struct made = uniforms;
 }
 
-Declared declaredBy(std::span<void (*const)(const Uniforms&)> structs);
+template <class... Structs>
+inline constexpr void (*kDeclare[])(const Uniforms&) = {declare<Structs>...};
 
 }  // namespace detail
 
-// What these structs declare. Of a name that is declared twice, the last declaration counts, in the first one's place:
-// a struct may change a default of its base.
-template <class... Structs>
-Declared declared()
+// Structs of uniforms whose types are forgotten.
+struct UniformStructs
 {
-    static constexpr void (*kStructs[])(const Uniforms&) = {detail::declare<Structs>...};
-    return detail::declaredBy(kStructs);
+    void (*const* declare)(const Uniforms&) = nullptr;
+    std::size_t count = 0;
+
+    // What they declare. Of a name that is declared twice, the last declaration counts, in the first one's place: a
+    // struct may change a default of its base.
+    Declared list() const;
+};
+
+template <class... Structs>
+constexpr UniformStructs declared()
+{
+    if constexpr (sizeof...(Structs) == 0)
+        return {};
+    else
+        return {detail::kDeclare<Structs...>, sizeof...(Structs)};
 }
 
 }  // namespace relief::samples

@@ -32,8 +32,7 @@ double millisecondsSince(Clock::time_point begin)
 
 // What one compiler gets: which part this is, the learner's text under its own name, and what the loader looks for.
 //
-// Part 0 of several is all but the programs. It runs once for each draw, and is not optimised: that would take as long
-// as the programs do. In the other parts nobody calls the stage's function, so no code is made of it.
+// Part 0 has what calls the programs, too. In the others nobody calls the stage's function, so no code is made of it.
 std::string completeText(const SourceText& source, const Division& division, unsigned part)
 {
     const std::string function = stageFunction(source.text);
@@ -52,8 +51,7 @@ std::string completeText(const SourceText& source, const Division& division, uns
                       owner);
         text += row;
     }
-    const std::string others = division.parts < 2 ? "0" : "1 + id % " + std::to_string(division.parts - 1);
-    text += "            default: return " + others + ";\n        }\n    }\n};\n}\n";
+    text += "            default: return id % " + std::to_string(division.parts) + ";\n        }\n    }\n};\n}\n";
     if (part > 0) text += "namespace relief::samples {\nstatic Stage " + function + "();\n}\n";
     text += "#line 1 \"" + source.path + "\"\n" + source.text;
     if (part > 0) return text;
@@ -107,16 +105,20 @@ PrivateFolder::~PrivateFolder()
 
 // --- the parts ---
 
+unsigned mostParts()
+{
+    return std::clamp(std::thread::hardware_concurrency(), 1u, 8u);
+}
+
 Division divided(const std::vector<std::uint64_t>& programs)
 {
     const std::set<std::uint64_t> names(programs.begin(), programs.end());
-    if (names.size() != programs.size()) return {.parts = 1, .owners = {}};
-    const unsigned processors = std::clamp(std::thread::hardware_concurrency(), 1u, 8u);
     Division division;
-    if (names.size() > 2) division.parts = 1 + std::min(processors, static_cast<unsigned>(names.size()));
+    if (names.size() != programs.size()) return division;
+    division.parts = std::clamp(static_cast<unsigned>(names.size()), 1u, mostParts());
     // Neighbours in the file go to different compilers: they are alike, and so take as long as each other.
     unsigned next = 0;
-    for (const std::uint64_t id : programs) division.owners[id] = 1 + next++ % (division.parts - 1);
+    for (const std::uint64_t id : programs) division.owners[id] = ++next % division.parts;
     return division;
 }
 
@@ -146,9 +148,7 @@ Compile::Compile(const Toolchain& toolchain, SourceText itsSource, const Divisio
         std::ofstream(base + ".cpp", std::ios::binary) << completeText(source, division, part);
         objects.push_back(base + ".o");
         std::vector<std::string> words = {toolchain.path};
-        const std::vector<std::string>& options =
-            part == 0 && division.parts > 1 ? toolchain.callerWords : toolchain.words;
-        words.insert(words.end(), options.begin(), options.end());
+        words.insert(words.end(), toolchain.words.begin(), toolchain.words.end());
         words.insert(words.end(), {"-iquote", home.empty() ? "." : home, "-c", base + ".cpp", "-o", objects.back()});
         running.push_back(start(words));
     }
@@ -258,8 +258,8 @@ std::optional<Compiled> Compile::poll()
         // The linker itself: a compiler that calls it takes ten times as long. Whatever is missing is the program's.
         std::vector<std::string> words = {linkerPath(), "-shared", "--eh-frame-hdr", "-Bsymbolic-functions", "-z",
                                           "muldefs",    "-o",      stem + ".so"};
-        // Of a function that several parts have, the first one is taken: an optimised one.
-        words.insert(words.end(), objects.rbegin(), objects.rend());
+        // A function of the file that is visible elsewhere is in all parts: muldefs.
+        words.insert(words.end(), objects.begin(), objects.end());
         running.push_back(start(words));
         return std::nullopt;
     }

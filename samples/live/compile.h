@@ -30,13 +30,15 @@ private:
     pid_t owner = 0;
 };
 
-// Which of several compilers makes code for which of a file's programs (parts.h); part 0 is all the rest. One part: one
-// compiler does it all.
+// Which of several compilers makes code for which of a file's programs (parts.h); part 0 has all the rest, too.
 struct Division
 {
-    unsigned parts = 2;
+    unsigned parts = 1;
     std::map<std::uint64_t, unsigned> owners;  // of programs that are known; the others go anywhere
 };
+
+// As many compilers as there are processors, at most 8.
+unsigned mostParts();
 
 // The programs of an object, dealt out. Where two have the same name nothing can be divided.
 Division divided(const std::vector<std::uint64_t>& programs);

@@ -81,29 +81,25 @@ void get(Message& m, std::vector<ViewName>& views)
 
 void put(Message& m, const Description& d)
 {
-    const Stage& s = d.stage;
-    for (const std::string* t : {&s.title, &s.section, &s.news, &s.id, &s.stem, &s.folder, &s.tutorial}) m.put(*t);
-    m.put(s.uniforms.properties.size());
-    for (const Property& p : s.uniforms.properties) {
+    m.put(d.title).put(d.news).put(d.properties.size());
+    for (const Property& p : d.properties) {
         m.put(p.name).put(p.kind).put(p.components).put(p.value).put(p.minimum).put(p.maximum);
         m.put(p.meaning).put(p.choices);
     }
-    put(m, s.uniforms.inputs);
-    m.put(s.mesh).put(s.cubesTurnedBy).put(s.camera).put(d.programs);
+    put(m, d.inputs);
+    m.put(d.camera).put(d.programs);
 }
 void get(Message& m, Description& d)
 {
-    Stage& s = d.stage;
-    for (std::string* t : {&s.title, &s.section, &s.news, &s.id, &s.stem, &s.folder, &s.tutorial}) m.get(*t);
     std::size_t properties = 0;
-    m.get(properties);
+    m.get(d.title).get(d.news).get(properties);
     for (std::size_t i = 0; i < properties && i < m.bytes.size(); ++i) {
-        Property& p = s.uniforms.properties.emplace_back();
+        Property& p = d.properties.emplace_back();
         m.get(p.name).get(p.kind).get(p.components).get(p.value).get(p.minimum).get(p.maximum);
         m.get(p.meaning).get(p.choices);
     }
-    get(m, s.uniforms.inputs);
-    m.get(s.mesh).get(s.cubesTurnedBy).get(s.camera).get(d.programs);
+    get(m, d.inputs);
+    m.get(d.camera).get(d.programs);
 }
 
 bool send(int socket, const Message& message, std::span<const int> descriptors)
@@ -218,17 +214,16 @@ std::uintptr_t baseOf(const std::string& object)
 
 // --- a renderer ---
 
-// The settings that the stage knows, and whose values it takes.
-std::vector<std::string> fitting(const Stage& stage, const std::vector<std::string>& settings)
+// The stage's properties with these settings. Those that it does not know, or whose values it does not take, are left
+// out unless the Look is strict.
+Expected<std::vector<Property>> propertiesFor(const Stage& stage, const Look& look)
 {
-    Stage bare;
-    bare.id = stage.id;
-    bare.uniforms.properties = stage.uniforms.properties;
-    std::vector<std::string> known;
-    for (const std::string& setting : settings) {
-        if (PreparedStage::prepare(bare, {setting})) known.push_back(setting);
+    std::vector<Property> properties = stage.properties();
+    for (const std::string& setting : look.settings) {
+        const Expected<void> applied = applySetting(setting, stage.id, properties);
+        if (!applied && look.strict) return tl::unexpected(applied.error());
     }
-    return known;
+    return properties;
 }
 
 // One version of a stage, drawn again and again.
@@ -252,21 +247,16 @@ struct Drawing
 
 Expected<void> Drawing::prepare(const Look& look)
 {
-    const std::vector<std::string> settings = look.strict ? look.settings : fitting(stage, look.settings);
+    Expected<std::vector<Property>> properties = propertiesFor(stage, look);
+    if (!properties) return tl::unexpected(properties.error());
     // What is loaded stays: settings change more often than files.
-    const bool keep = prepared && files == look.files;
-    Stage bare;
-    bare.id = stage.id;
-    bare.uniforms.properties = stage.uniforms.properties;
-    Expected<PreparedStage> made =
-        PreparedStage::prepare(keep ? bare : stage, settings, keep ? InputFiles{} : look.files);
-    if (!made) return tl::unexpected(made.error());
-    if (keep) {
-        prepared->properties = std::move(made->properties);
-    } else {
+    if (!prepared || files != look.files) {
+        Expected<PreparedStage> made = PreparedStage::prepare(stage, {}, look.files);
+        if (!made) return tl::unexpected(made.error());
         prepared = std::move(*made);
         files = look.files;
     }
+    prepared->properties = std::move(*properties);
     prepared->usersCamera = look.camera;
     prepared->tangentLines.reset();
     if (look.showTangents) prepared->tangentLines = {look.tangentOffset, look.tangentScale};
@@ -338,7 +328,14 @@ std::vector<ViewName> Drawing::views() const
         ::_exit(0);
     }
     Message description(Message::Kind::loaded);
-    put(description, Description{loaded->stage, loaded->programs});
+    const Stage& stage = loaded->stage;
+    put(description, Description{.title = std::string(stage.title),
+                                 .news = std::string(stage.news),
+                                 .properties = stage.properties(),
+                                 .inputs = stage.inputs(),
+                                 .camera = stage.camera,
+                                 .programs = loaded->programs,
+                                 .views = {}});
     description.put(baseOf(object));
     send(socket, description);
 

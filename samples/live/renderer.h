@@ -50,7 +50,10 @@ struct ViewName
 // A stage as another process knows it: everything but what it draws.
 struct Description
 {
-    Stage stage;  // without `draw`
+    std::string title, news;
+    std::vector<Property> properties;
+    Inputs inputs;
+    Camera camera;
     std::vector<std::uint64_t> programs;
     std::vector<ViewName> views;  // of the last picture: which there are may follow from settings and files
 };

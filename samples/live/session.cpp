@@ -178,7 +178,7 @@ void Session::hear(std::unique_ptr<Renderer>& renderer, News& news)
             currentVersion = version;
             description = std::move(incomingDescription);
             lastGood = current->object();
-            maker.preload(description->stage.inputs(), wanted.files, text.find("bakedSphere()") != std::string::npos);
+            maker.preload(description->inputs, wanted.files, text.find("bakedSphere()") != std::string::npos);
             trouble.reset();
             news.stage = news.problem = true;
         }

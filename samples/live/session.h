@@ -103,7 +103,7 @@ private:
 
     std::string text;  // that is compiled, or was last
     int version = 0;   // of that text
-    Division division;
+    Division division = {.parts = mostParts(), .owners = {}};
     std::unique_ptr<Compile> compile;
     std::unique_ptr<Renderer> incoming;  // the newest version, until its first picture
     std::unique_ptr<Renderer> current;

@@ -18,8 +18,7 @@ bool isThere(const Toolchain& toolchain)
 bool hasHeaders(const Toolchain& toolchain)
 {
     std::error_code ignored;
-    return std::filesystem::exists(toolchain.precompiled, ignored) &&
-           std::filesystem::exists(toolchain.precompiledCaller, ignored);
+    return std::filesystem::exists(toolchain.precompiled, ignored);
 }
 
 }  // namespace

@@ -17,10 +17,6 @@ struct Toolchain
     // The file of the precompiled headers, and what a stage is compiled with, them included.
     std::string precompiled;
     std::vector<std::string> words;
-
-    // The same for what calls the programs, without optimisation.
-    std::string precompiledCaller;
-    std::vector<std::string> callerWords;
 };
 
 // All that CMake found, the fastest first.

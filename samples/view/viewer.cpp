@@ -84,13 +84,13 @@ std::string Viewer::name() const
 const std::vector<Property>& Viewer::properties() const
 {
     static const std::vector<Property> none;
-    return stage() != nullptr ? stage()->uniforms.properties : none;
+    return stage() != nullptr ? stage()->properties : none;
 }
 
 const std::vector<live::ViewName>& Viewer::views() const
 {
     static const std::vector<live::ViewName> none;
-    return current->stage() != nullptr ? current->stage()->views : none;
+    return stage() != nullptr ? stage()->views : none;
 }
 
 // --- its properties ---
@@ -201,7 +201,7 @@ void Viewer::fitTo(int width, int height)
 std::vector<Slot> Viewer::slots() const
 {
     if (stage() == nullptr) return {};
-    const Inputs inputs = stage()->inputs();
+    const Inputs& inputs = stage()->inputs;
     std::vector<Slot> all = {{"mesh", {}, inputs.mesh}};
     for (std::size_t i = 0; i < inputs.textures.size(); ++i) {
         all.push_back({kTextureOptions[i], static_cast<TextureSlot>(i), inputs.textures[i].file});

@@ -57,7 +57,7 @@ public:
     Expected<void> open(const live::StageSource& source);
     void step(int direction);  // to the next one of the book, or the one before
     const live::Session& session() const { return *current; }
-    const Stage* stage() const { return current->stage() != nullptr ? &current->stage()->stage : nullptr; }
+    const live::Description* stage() const { return current->stage(); }
     std::string name() const;  // "1.12 Bump scale"
     const std::vector<Property>& properties() const;
     const std::vector<live::ViewName>& views() const;  // for Look::show

@@ -91,7 +91,7 @@ TEST_CASE("live: a save changes the picture, an error leaves it, a fix brings th
     Edited edited;
     REQUIRE(edited.awaitVersion(1));
     REQUIRE(edited.session->problem() == nullptr);
-    CHECK(edited.session->stage()->stage.title == "My shader");
+    CHECK(edited.session->stage()->title == "My shader");
     const std::uint32_t before = edited.middle();
 
     edited.save(edited.withLine("retrun 5;"));
