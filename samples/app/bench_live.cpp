@@ -19,6 +19,8 @@ namespace {
 
 using Clock = live::Watch::Clock;
 
+constexpr int kErrors = 5;
+
 double milliseconds(Clock::duration time)
 {
     return std::chrono::duration<double, std::milli>(time).count();
@@ -27,7 +29,20 @@ double milliseconds(Clock::duration time)
 struct Saves
 {
     std::vector<double> total, notice, compile, link, load, draw;
+    std::vector<double> error;  // from a save that does not compile to its error
     std::size_t programs = 0;
+};
+
+// The slowest of some stages.
+struct Slowest
+{
+    double median = 0.0;
+    std::string stage = "none";
+
+    void consider(double its, const std::string& id)
+    {
+        if (its > median) *this = {its, id};
+    }
 };
 
 double median(std::vector<double> values)
@@ -51,6 +66,17 @@ Expected<void> awaitPicture(live::Session& session, Window& window, int version)
     SDL_PumpEvents();
     const live::Picture& picture = session.picture();
     window.show({picture.drawn.width, picture.drawn.height, picture.pixels});
+    return {};
+}
+
+// Waits for the error of what was saved.
+Expected<void> awaitError(live::Session& session)
+{
+    const Clock::time_point begin = Clock::now();
+    while (session.problem() == nullptr) {
+        session.update(std::chrono::milliseconds(100));
+        if (Clock::now() - begin > std::chrono::minutes(2)) return fail(session.source().path + ": no error in time");
+    }
     return {};
 }
 
@@ -87,6 +113,19 @@ Expected<Saves> measure(const live::StageSource& source, const LiveBenchOptions&
         saves.load.push_back(times.load);
         saves.draw.push_back(times.draw);
     }
+    // At the end of the file, where the compiler has read all of it.
+    for (int i = 0; i < std::min(options.saves, kErrors); ++i) {
+        const Clock::time_point begin = Clock::now();
+        save("float3 wrong() { return float3(nothing" + std::to_string(i) + ", 1); }\n");
+        if (const Expected<void> shown = awaitError(**session); !shown) return tl::unexpected(shown.error());
+        saves.error.push_back(milliseconds(Clock::now() - begin));
+        save("// right " + std::to_string(i) + "\n");
+        version += 2;
+        while ((*session)->problem() != nullptr || (*session)->picture().version < version) {
+            (*session)->update(std::chrono::milliseconds(100));
+            if (Clock::now() - begin > std::chrono::minutes(2)) return fail(copy.path + ": no picture in time");
+        }
+    }
     return saves;
 }
 
@@ -120,17 +159,25 @@ Expected<void> benchLive(const LiveBenchOptions& options)
                           .threads = options.threads};
     std::printf("Milliseconds from a save to the picture, %dx%d, %d saves each, %s, window: %s\n", size->width,
                 size->height, options.saves, (*toolchain)->name.c_str(), SDL_GetCurrentVideoDriver());
-    std::printf("%-36s %8s %8s %8s | medians: %6s %8s %6s %6s %6s\n", "stage", "programs", "median", "worst", "notice",
-                "compile", "link", "load", "draw");
+    std::printf("%-36s %8s %8s %8s | medians: %6s %8s %6s %6s %6s | %8s\n", "stage", "programs", "median", "worst",
+                "notice", "compile", "link", "load", "draw", "an error");
+    Slowest ofOne, ofAll, ofErrors;
     for (const live::StageSource& source : sources) {
         const Expected<Saves> saves = measure(source, options, look, **maker, window);
         if (!saves) return tl::unexpected(saves.error());
-        std::printf("%-36s %8zu %8.0f %8.0f | %15.0f %8.0f %6.0f %6.0f %6.1f\n",
-                    (source.id + " " + source.stem).c_str(), saves->programs, median(saves->total),
+        const double total = median(saves->total), error = median(saves->error);
+        std::printf("%-36s %8zu %8.0f %8.0f | %15.0f %8.0f %6.0f %6.0f %6.1f | %8.0f\n",
+                    (source.id + " " + source.stem).c_str(), saves->programs, total,
                     *std::max_element(saves->total.begin(), saves->total.end()), median(saves->notice),
-                    median(saves->compile), median(saves->link), median(saves->load), median(saves->draw));
+                    median(saves->compile), median(saves->link), median(saves->load), median(saves->draw), error);
         std::fflush(stdout);
+        if (saves->programs == 1) ofOne.consider(total, source.id);
+        ofAll.consider(total, source.id);
+        ofErrors.consider(error, source.id);
     }
+    std::printf("The largest median: %.0f (%s), of stages with one pair of programs %.0f (%s); of errors %.0f (%s)\n",
+                ofAll.median, ofAll.stage.c_str(), ofOne.median, ofOne.stage.c_str(), ofErrors.median,
+                ofErrors.stage.c_str());
     return {};
 }
 
