@@ -133,6 +133,10 @@ TEST_CASE("command line: help at every level, and the list of stages")
     REQUIRE(list.size() == relief::samples::allStages().size());
     for (const auto& stage : list) {
         for (const char* key : {"id", "stem", "title", "tutorial", "section", "properties"}) CHECK(stage.contains(key));
+        for (const auto& property : stage["properties"]) {
+            const bool isChoice = property["kind"] == "choice";
+            CHECK(property.contains("choices") == isChoice);
+        }
     }
 }
 

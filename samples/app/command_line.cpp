@@ -62,6 +62,11 @@ void addCompilerOption(CLI::App& command, std::string& compiler)
         ->check(CLI::IsMember({"g++", "clang++"}));
 }
 
+void addTileOption(CLI::App& command, int& tileSize)
+{
+    command.add_option("--tile", tileSize, "Tile size in pixels")->check(CLI::IsMember({16, 32, 64, 128}));
+}
+
 void addShowOption(CLI::App& command, std::string& show)
 {
     command
@@ -260,7 +265,6 @@ int runProgram(int argc, char** argv, const Program& program)
     RenderOptions options;
     bool json = false;
     std::string output, binormal;
-    int tileSize = kDefaultTileSize;
     // Runs what the program has for a command.
     const auto run = [&result](const char* name, auto function, const auto&... arguments) {
         result = function != nullptr ? function(arguments...) : elsewhere(name);
@@ -275,6 +279,7 @@ int runProgram(int argc, char** argv, const Program& program)
     command->add_option("-o,--output", output, "The file; default: the stage's name")->type_name("FILE.png");
     bool watch = false;
     addShowOption(*command, options.show);
+    addTileOption(*command, options.tileSize);
     command->add_flag("--watch", watch, "Writes the picture again whenever the stage's file is saved");
     addCompilerOption(*command, options.compiler);
     command->callback([&] { run("render", watch ? program.renderAtEverySave : program.render, options, output); });
@@ -295,6 +300,7 @@ int runProgram(int argc, char** argv, const Program& program)
     ViewOptions viewOptions;
     addInputOptions(*command, viewOptions.render);
     addShowOption(*command, viewOptions.render.show);
+    addTileOption(*command, viewOptions.render.tileSize);
     addCompilerOption(*command, viewOptions.render.compiler);
     command->add_option("--frames", viewOptions.frames, "Close after this many frames; 0: when the user does")
         ->check(CLI::Range(0, 1000000));
@@ -304,8 +310,8 @@ int runProgram(int argc, char** argv, const Program& program)
 
     command = app.add_subcommand("hash", "Prints the hash of a stage's float colour and depth");
     addInputOptions(*command, options);
-    command->add_option("--tile", tileSize, "Tile size in pixels")->check(CLI::IsMember({16, 32, 64, 128}));
-    command->callback([&] { run("hash", program.hash, options, tileSize); });
+    addTileOption(*command, options.tileSize);
+    command->callback([&] { run("hash", program.hash, options); });
 
     command = app.add_subcommand("signature", "Prints what a stage's vertex programs hand to its fragment programs");
     command->add_option("stage", options.stage, "A stage, by number, name or file")->required();

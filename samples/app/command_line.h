@@ -16,7 +16,7 @@ struct Program
     Expected<void> (*newStage)(const std::string& path, const std::string& from) = nullptr;
     Expected<void> (*gallery)(const std::string& folder, int threads) = nullptr;
     Expected<void> (*view)(const ViewOptions& options) = nullptr;
-    Expected<void> (*hash)(const RenderOptions& options, int tileSize) = nullptr;
+    Expected<void> (*hash)(const RenderOptions& options) = nullptr;
     Expected<void> (*signature)(const RenderOptions& options, const std::string& binormal) = nullptr;
     Expected<void> (*explain)(const RenderOptions& options, bool json) = nullptr;
     Expected<void> (*bench)(const std::vector<std::string>& arguments) = nullptr;

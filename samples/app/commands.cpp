@@ -20,8 +20,12 @@ nlohmann::json describe(const Property& p)
         value = nlohmann::json::array();
         for (int i = 0; i < p.components; ++i) value.push_back(p.value[i]);
     }
-    return {
-        {"name", p.name}, {"default", value}, {"minimum", p.minimum}, {"maximum", p.maximum}, {"meaning", p.meaning}};
+    static constexpr const char* kKinds[] = {"number", "vector", "color", "toggle", "choice"};
+    nlohmann::json all = {{"name", p.name},       {"kind", kKinds[static_cast<std::size_t>(p.kind)]},
+                          {"default", value},     {"minimum", p.minimum},
+                          {"maximum", p.maximum}, {"meaning", p.meaning}};
+    if (!p.choices.empty()) all["choices"] = p.choices;
+    return all;
 }
 
 nlohmann::json describe(const Stage& stage)
@@ -51,12 +55,12 @@ Expected<void> list(bool json)
     return {};
 }
 
-Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path,
-                                  const std::string& show)
+Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, const FrameOptions& how,
+                                  const std::string& path, const std::string& show)
 {
     Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
-    Frame frame(*target, {.threads = threads});
+    Frame frame(*target, how);
     stage.record(frame, size.width, size.height);
     if (const std::string problem = stage.problem(frame); !problem.empty()) return fail(problem);
     const Expected<Statistics> statistics = runInside(frame, *target, show, stage.log->labels);
@@ -90,13 +94,14 @@ Expected<void> render(const RenderOptions& options, const std::string& output)
     if (!prepared) return tl::unexpected(prepared.error());
     if (options.show == "list") return listViews(*prepared, *size);
     const std::string path = output.empty() ? prepared->stage->stem + ".png" : output;
-    const Expected<Statistics> done = renderToFile(*prepared, *size, options.threads, path, options.show);
+    const Expected<Statistics> done =
+        renderToFile(*prepared, *size, {.threads = options.threads, .tileSize = options.tileSize}, path, options.show);
     if (!done) return tl::unexpected(done.error());
     std::printf("%s\n", path.c_str());
     return {};
 }
 
-Expected<void> hash(const RenderOptions& options, int tileSize)
+Expected<void> hash(const RenderOptions& options)
 {
     const Expected<Size> size = parseSize(options.size);
     if (!size) return tl::unexpected(size.error());
@@ -104,7 +109,7 @@ Expected<void> hash(const RenderOptions& options, int tileSize)
     if (!prepared) return tl::unexpected(prepared.error());
     Expected<Framebuffer> target = Framebuffer::create(size->width, size->height, Format::rgba32f, Store::keep);
     if (!target) return tl::unexpected(target.error());
-    Frame frame(*target, {.threads = options.threads, .tileSize = tileSize});
+    Frame frame(*target, {.threads = options.threads, .tileSize = options.tileSize});
     prepared->record(frame, size->width, size->height);
     if (const std::string problem = prepared->problem(frame); !problem.empty()) return fail(problem);
     frame.run();

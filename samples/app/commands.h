@@ -11,14 +11,14 @@ Expected<void> render(const RenderOptions& options, const std::string& output);
 Expected<void> renderAtEverySave(const RenderOptions& options, const std::string& output);
 Expected<void> newStage(const std::string& path, const std::string& from);
 Expected<void> benchLive(const LiveBenchOptions& options);
-Expected<void> hash(const RenderOptions& options, int tileSize);
+Expected<void> hash(const RenderOptions& options);
 Expected<void> signature(const RenderOptions& options, const std::string& binormal);
 Expected<void> explain(const RenderOptions& options, bool json);
 Expected<void> gallery(const std::string& folder, int threads);
 Expected<void> view(const ViewOptions& options);
 
 // Renders into 8-bit sRGB colours, the picture or one of its views (common/inside.h), and writes a PNG.
-Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, int threads, const std::string& path,
-                                  const std::string& show = "");
+Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, const FrameOptions& how,
+                                  const std::string& path, const std::string& show = "");
 
 }  // namespace relief::samples

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/input_files.h"
+#include "pipeline/limits.h"
 
 namespace relief::samples {
 
@@ -14,6 +15,7 @@ struct RenderOptions
     std::string stage;
     std::string size = "960x540";
     int threads = 0;
+    int tileSize = kDefaultTileSize;  // of `render`, `view` and `hash`
     std::vector<std::string> settings;
     InputFiles files;
     std::string camera;  // as parseCamera() takes it; empty: the stage's

@@ -107,6 +107,7 @@ Expected<live::Look> lookOf(const RenderOptions& options)
                     .settings = options.settings,
                     .files = options.files,
                     .threads = options.threads,
+                    .tileSize = options.tileSize,
                     .showTangents = options.showTangents,
                     .tangentScale = options.tangentScale,
                     .tangentOffset = options.tangentOffset,

@@ -19,11 +19,11 @@ struct Interpolators {
     TEXCOORD<2, float3> worldPos;
 };
 
-struct MyMaterial : LitMaterial {                                                                             // new
-    sampler2D mainTex = albedo("marble-albedo.png");                                                          // new
-    sampler2D normalMap = normals("marble-heights.png");                                                      // new
-    Float bumpScale = number("bumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");    // new
-    sampler2D detailTex = detail("marble-detail.png", {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5});  // new
+struct MyMaterial : LitMaterial {                                                                           // new
+    sampler2D mainTex = albedo("marble-albedo.png");                                                        // new
+    sampler2D normalMap = normals("marble-heights.png");                                                    // new
+    Float bumpScale = number("bumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");  // new
+    sampler2D detailTex = detail("marble-detail.png", kFadedOut);                                           // new
     float4 detailTex_ST = vector("detailTex_ST", {3, 3, 0, 0}, {-64, 64}, "tiling and offset of both detail textures");
 };
 

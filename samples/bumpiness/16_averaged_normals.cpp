@@ -22,7 +22,7 @@ struct Interpolators {
 struct MyMaterial : LitMaterial {
     sampler2D normalMap = normals("marble-heights.png");
     Float bumpScale = number("bumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");
-    sampler2D detailTex = detail(kNone, {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5});
+    sampler2D detailTex = detail(kNone, kFadedOut);
     float4 detailTex_ST = vector("detailTex_ST", {3, 3, 0, 0}, {-64, 64}, "tiling and offset of both detail textures");
     sampler2D detailNormalMap = detailNormals("marble-detail.png", normalMapSettings(0.1f, true));
     Float detailBumpScale = number("detailBumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");

@@ -78,14 +78,8 @@ Stage bumpy_surfaces_02_approximate_root() {
                 MyFragmentProgram approximate = uniforms;
                 approximate.exact = false;
 
-                s.cutCell(0, 3);
-                s.draw(s.mesh, vertex, exact);
-                s.cutCell(1, 3);
-                s.draw(s.mesh, vertex, approximate);
-                s.cutCell(2, 3);
                 const Float red = Scale(uniforms).maximumAngle;
-                s.draw(s.mesh, vertex, ShowAngle<Interpolators, MyFragmentProgram>{exact, approximate, red});
-                drawScale(s, 3, red);
+                drawBesideAngle<Interpolators>(s, vertex, exact, approximate, red);
                 s.labelColumns({"by the root", "without a root", "angle"});
             }};
 }

@@ -83,14 +83,8 @@ Stage bumpy_surfaces_03_rgb_normal_map() {
             computed.bumpMap = computed.swizzled;
             computed.rgb = false;
 
-            s.cutCell(0, 3);
-            s.draw(s.mesh, vertex, computed);
-            s.cutCell(1, 3);
-            s.draw(s.mesh, vertex, stored);
-            s.cutCell(2, 3);
             const Float red = Scale(uniforms).maximumAngle;
-            s.draw(s.mesh, vertex, ShowAngle<Interpolators, MyFragmentProgram>{computed, stored, red});
-            drawScale(s, 3, red);
+            drawBesideAngle<Interpolators>(s, vertex, computed, stored, red);
             s.labelColumns({"z computed", "z stored", "angle"});
         }};
 }

@@ -82,4 +82,19 @@ inline void drawScale(const Scene& s, int count, Float maximumAngle)
            detail::ScaleFragmentProgram{});
 }
 
+// The first object in three columns: by one fragment program, by another one, and the angle between their normals, with
+// its scale.
+template <class Interpolators, class VertexProgram, class FragmentProgram>
+void drawBesideAngle(const Scene& s, const VertexProgram& vertex, const FragmentProgram& first,
+                     const FragmentProgram& second, Float maximumAngle)
+{
+    s.cutCell(0, 3);
+    s.draw(s.mesh, vertex, first);
+    s.cutCell(1, 3);
+    s.draw(s.mesh, vertex, second);
+    s.cutCell(2, 3);
+    s.draw(s.mesh, vertex, ShowAngle<Interpolators, FragmentProgram>{first, second, maximumAngle});
+    drawScale(s, 3, maximumAngle);
+}
+
 }  // namespace relief::samples

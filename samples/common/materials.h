@@ -22,7 +22,7 @@ struct DetailedMaterial : LitMaterial
 {
     sampler2D normalMap = normals(kNone);
     Float bumpScale = number("bumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");
-    sampler2D detailTex = detail(kNone, {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5});
+    sampler2D detailTex = detail(kNone, kFadedOut);
     float4 detailTex_ST = vector("detailTex_ST", {3, 3, 0, 0}, {-64, 64}, "tiling and offset of both detail textures");
     sampler2D detailNormalMap = detailNormals(kNone, normalMapSettings(0.1f, true));
     Float detailBumpScale = number("detailBumpScale", 0.5f, {-32, 32}, "the bumps' strength; 1: as the map was made");
@@ -33,7 +33,7 @@ struct DetailedMarble : DetailedMaterial
 {
     sampler2D mainTex = albedo("marble-albedo.png");
     sampler2D normalMap = normals("marble-heights.png");
-    sampler2D detailTex = detail("marble-detail.png", {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5});
+    sampler2D detailTex = detail("marble-detail.png", kFadedOut);
     sampler2D detailNormalMap = detailNormals("marble-detail.png", normalMapSettings(0.1f, true));
 };
 

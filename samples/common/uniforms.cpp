@@ -59,8 +59,8 @@ ImportSettings normalMapSettings(float bumpiness, bool fadeOutMips)
             .storage = ImportSettings::Storage::dxt5nm,
             .bumpiness = bumpiness,
             .fadeOutMips = fadeOutMips,
-            .fadeFirst = 2,
-            .fadeLast = 5};
+            .fadeFirst = kFadedOut.fadeFirst,
+            .fadeLast = kFadedOut.fadeLast};
 }
 
 Declared UniformStructs::list() const

@@ -71,6 +71,9 @@ struct Inputs
     PerTexture<TextureInput> textures;
 };
 
+// A detail texture that is gone from afar: its levels fade to grey, from 2 to 5.
+inline constexpr ImportSettings kFadedOut = {.fadeOutMips = true, .fadeFirst = 2, .fadeLast = 5};
+
 // A normal map as DXT5nm: of a grey picture's heights, or of a picture of normals.
 ImportSettings normalMapSettings(float bumpiness, bool fadeOutMips = false);
 

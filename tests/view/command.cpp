@@ -52,6 +52,11 @@ TEST_CASE("view: the copied command renders the very picture: a stage of the boo
     viewer.change(look);
     hands.settle();
     checkSameBytes(hands, folder, "stages/relief_bumpiness_12_bump_scale");
+    look.show = "blocks";
+    look.tileSize = 32;
+    viewer.change(look);
+    hands.settle();
+    checkSameBytes(hands, folder, "stages/relief_bumpiness_12_bump_scale");
 }
 
 TEST_CASE("view: the copied command renders the very picture: a file whose name a shell would split")
