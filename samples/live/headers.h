@@ -17,6 +17,19 @@
 
 #include "live/parts.h"
 
+// What calls programs runs once for each draw: clang is not to optimise it, which would take as long as some programs.
+#include "pipeline/draw.h"
+#pragma clang optimize off
+#include "pipeline/frame.h"
+#pragma clang optimize on
+#include "common/camera.h"
+#include "common/input_files.h"
+#include "common/uniforms.h"
+#include "mesh/bounds.h"
+#pragma clang optimize off
+#include "common/scene.h"
+#pragma clang optimize on
+
 #include "relief.h"
 #include "shading/lights.h"
 #include "shading/object_transform.h"
