@@ -137,12 +137,13 @@ void computeNormals(Mesh& mesh)
     }
 }
 
-Mesh withMirroredUv(Mesh mesh)
+Mesh withMirroredUv(const Mesh& mesh)
 {
     const DefaultFloatingPoint environment;
-    for (glm::vec2& uv : mesh.uvs) uv.x = 1.0f - uv.x;
-    for (glm::vec4& tangent : mesh.tangents) tangent = -tangent;
-    return mesh;
+    Mesh mirrored = mesh;
+    for (glm::vec2& uv : mirrored.uvs) uv.x = 1.0f - uv.x;
+    for (glm::vec4& tangent : mirrored.tangents) tangent = -tangent;
+    return mirrored;
 }
 
 }  // namespace relief

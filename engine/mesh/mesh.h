@@ -42,6 +42,6 @@ Expected<void> validate(const Mesh& mesh, int indicesPerPrimitive = 3);
 void computeNormals(Mesh& mesh);
 
 // The same shape with its picture mirrored: u becomes 1 - u, tangents turn round, and so does their handedness sign.
-Mesh withMirroredUv(Mesh mesh);
+Mesh withMirroredUv(const Mesh& mesh);
 
 }  // namespace relief

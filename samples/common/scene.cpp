@@ -173,28 +173,28 @@ sampler2D Scene::samplerOf(const Texture& made) const
     return {.texture = &made};
 }
 
-void Scene::labelColumns(std::initializer_list<std::string> words, int row, int rows) const
+void Scene::labelColumns(std::initializer_list<std::string_view> words, int row, int rows) const
 {
     int column = 0;
-    for (const std::string& word : words) {
-        log.labels.push_back({word, cellAt(column, static_cast<int>(words.size()), row, rows), false});
+    for (const std::string_view word : words) {
+        log.labels.push_back({std::string(word), cellAt(column, static_cast<int>(words.size()), row, rows), false});
         ++column;
     }
 }
 
-void Scene::label(const std::string& words) const
+void Scene::label(std::string_view words) const
 {
-    log.labels.push_back({words, log.scissor, false});
+    log.labels.push_back({std::string(words), log.scissor, false});
 }
 
-void Scene::labelScale(const std::string& words) const
+void Scene::labelScale(std::string_view words) const
 {
-    log.labels.push_back({words, log.scissor, true});
+    log.labels.push_back({std::string(words), log.scissor, true});
 }
 
-void Scene::note(const std::string& line) const
+void Scene::note(std::string_view line) const
 {
-    log.notes.push_back(line);
+    log.notes.emplace_back(line);
 }
 
 void Scene::showTangents(const TangentSpaceVisualizer& visualizer) const
@@ -230,10 +230,10 @@ const Mesh& Scene::prepare(const Mesh& drawn, Fields vertexData, const float4x4*
     return reads("TANGENT") ? withTangents(drawn) : reads("TEXCOORD") ? withUvs(drawn) : drawn;
 }
 
-void Scene::leftOut(const std::string& name, const Object& object) const
+void Scene::leftOut(std::string_view name, const Object& object) const
 {
     ++log.passesLeftOut;
-    note("pass left out: " + name + " does not reach the " + object.mesh->name);
+    note("pass left out: " + std::string(name) + " does not reach the " + object.mesh->name);
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/camera.h"
@@ -96,7 +97,7 @@ public:
 
     // Whether a light reaches an object; if not, its pass is to be left out, and explain says so.
     template <class Light>
-    bool reaches(const std::string& name, const Light& light, const Object& object) const;
+    bool reaches(std::string_view name, const Light& light, const Object& object) const;
 
     // Draws into the same camera's picture again, but only between two fractions of its width.
     void cutStrip(float from, float to) const;
@@ -110,17 +111,17 @@ public:
 
     // A few words about each column of the picture, or of one of its rows: what it shows. And about what the next draws
     // go to, a cell, a strip or the whole picture.
-    void labelColumns(std::initializer_list<std::string> words, int row = 0, int rows = 1) const;
-    void label(const std::string& words) const;
+    void labelColumns(std::initializer_list<std::string_view> words, int row = 0, int rows = 1) const;
+    void label(std::string_view words) const;
 
     // The same about a scale at its lower edge, which false_color.h draws.
-    void labelScale(const std::string& words) const;
+    void labelScale(std::string_view words) const;
 
     // For meshes that a stage makes: they live until the frame has run. For textures that it makes and that live
     // longer: explain knows of them. And a line for explain.
     const Mesh& keep(Mesh made) const;
     sampler2D samplerOf(const Texture& made) const;
-    void note(const std::string& line) const;
+    void note(std::string_view line) const;
 
     // The mesh, or, if it came without, the same with uv by longitude and latitude, or with tangents; made once.
     const Mesh& withUvs(const Mesh& mesh) const;
@@ -130,7 +131,7 @@ private:
     const Mesh& prepare(const Mesh& drawn, Fields vertexData, const float4x4* worldFromObject) const;
     Rectangle cellAt(int column, int columns, int row, int rows) const;
     void cut(const Viewport& viewport, const Rectangle& scissor) const;
-    void leftOut(const std::string& name, const Object& object) const;
+    void leftOut(std::string_view name, const Object& object) const;
     glm::vec4 value(const Declaration& declaration) const override;
     sampler2D texture(TextureSlot slot, const char* file, const ImportSettings& settings) const override;
 
@@ -175,7 +176,7 @@ void Scene::draw(const Object& object, const RenderState& state) const
 }
 
 template <class Light>
-bool Scene::reaches(const std::string& name, const Light& source, const Object& object) const
+bool Scene::reaches(std::string_view name, const Light& source, const Object& object) const
 {
     const bool reached = lightReaches(source, transformed(boundsOf(*object.mesh), object.worldFromObject));
     if (!reached) leftOut(name, object);

@@ -1,5 +1,7 @@
 // What a stage's file includes, precompiled for the compilers that live stages are compiled with (CMakeLists.txt).
 // Nothing that draws: which compiler makes code for its programs is not known yet.
+#pragma once
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,24 +20,35 @@
 #include "live/parts.h"
 
 // What calls programs runs once for each draw: clang is not to optimise it, which would take as long as some programs.
+// Whatever these two headers include stands above them.
 #include "pipeline/draw.h"
 #pragma clang optimize off
 #include "pipeline/frame.h"
 #pragma clang optimize on
+
+#include "relief.h"
+#include "shading/cotangent_frame.h"
+#include "shading/lights.h"
+#include "shading/normals.h"
+#include "shading/object_transform.h"
+#include "shading/tangent_space.h"
+#include "shading/triplanar.h"
+#include "texture/import.h"
+
 #include "common/camera.h"
-#include "common/input_files.h"
+#include "common/overlay.h"
 #include "common/uniforms.h"
-#include "mesh/bounds.h"
 #pragma clang optimize off
 #include "common/scene.h"
 #pragma clang optimize on
 
-#include "relief.h"
-#include "shading/lights.h"
-#include "shading/object_transform.h"
-#include "shading/tangent_space.h"
-#include "texture/import.h"
-
 #include "common/baked_sphere.h"
 #include "common/stage.h"
 #include "common/triplanar_methods.h"
+
+// Never called: what destroys and moves these is then in the precompiled headers, not made again for each stage.
+inline void instantiated(relief::Mesh mesh, std::vector<std::string> words)
+{
+    const relief::Mesh moved = std::move(mesh);
+    words.emplace_back(moved.name + words[0]);
+}

@@ -311,9 +311,14 @@ void Interface::pictureSection()
     tooltip("Normals green, tangents red, binormals blue");
     if (look.showTangents) {
         row("their length", false, false);
-        changed = ImGui::SliderFloat("##length", &look.tangentScale, 0.0f, 1.0f, "%.3f") || changed;
+        const auto slider = [&](const char* name, float& value, float most) {
+            changed = ImGui::SliderFloat(name, &value, 0.0f, most, "%.3f", ImGuiSliderFlags_AlwaysClamp) || changed;
+        };
+        slider("##length", look.tangentScale, 1.0f);
+        place("tangents.length");
         row("their distance", false, false);
-        changed = ImGui::SliderFloat("##distance", &look.tangentOffset, 0.0f, 0.2f, "%.3f") || changed;
+        slider("##distance", look.tangentOffset, 0.2f);
+        place("tangents.distance");
     }
     row("text", false, false);
     char times[16];

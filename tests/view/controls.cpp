@@ -115,6 +115,14 @@ TEST_CASE("view: camera, light, size, threads, tiles, lines, text")
     hands.click("picture.tangents", 0.1f);
     CHECK(viewer.look().showTangents);
     CHECK(viewer.picture().colors != plain);
+    for (const char* slider : {"tangents.length", "tangents.distance"}) {
+        CAPTURE(slider);
+        const std::vector<std::uint32_t> lines = viewer.picture().colors;
+        hands.click(slider, 0.8f);
+        CHECK(viewer.picture().colors != lines);
+    }
+    CHECK(viewer.look().tangentScale == doctest::Approx(0.8f).epsilon(0.05));
+    CHECK(viewer.look().tangentOffset == doctest::Approx(0.16f).epsilon(0.05));
     hands.click("picture.tangents", 0.1f);
 
     hands.click("picture.size", 0.2f);
@@ -273,6 +281,24 @@ TEST_CASE("view: the magnifier, and a pixel that is kept over a save")
     CHECK(hands.viewer().camera().position == position);
     hands.click("kept.release");
     CHECK_FALSE(hands.viewer().kept);
+}
+
+// In place of the program that opens pages: one that writes down what it is given.
+TEST_CASE("view: a stage's page is opened")
+{
+    const TemporaryFolder folder;
+    const std::filesystem::path program = folder / "xdg-open", opened = folder / "opened";
+    std::ofstream(program) << "#!/bin/sh\nprintf '%s' \"$1\" >'" << opened.string() << "'\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    const std::string path = ::getenv("PATH");
+    ::setenv("PATH", (folder.path.string() + ":" + path).c_str(), 1);
+    const Hands hands("1.12");
+    hands.click("page");
+    ::setenv("PATH", path.c_str(), 1);
+    std::stringstream address;
+    address << std::ifstream(opened).rdbuf();
+    CHECK(address.str().starts_with("file:///"));
+    CHECK(address.str().ends_with("/docs/bumpiness/12_bump_scale.md"));
 }
 
 TEST_CASE("view: copy, save, record")
