@@ -337,6 +337,23 @@ TEST_CASE("view: copy, save, record")
     CHECK(first->colors != second->colors);
     CHECK_FALSE(std::filesystem::exists(own.folder / "turn/my_shader_002.png"));
 
+    // Stopped on the way.
+    hands.click("record");
+    hands.click("turn.folder");
+    hands.type((own.folder / "part").string());
+    hands.click("turn.frames", 0.6f);
+    hands.push(SDL_MOUSEMOTION, "turn.begin");
+    hands.push(SDL_MOUSEBUTTONDOWN, "turn.begin");
+    hands.push(SDL_MOUSEBUTTONUP, "turn.begin");
+    hands.push(SDL_MOUSEMOTION, "turn.stop");
+    hands.push(SDL_MOUSEBUTTONDOWN, "turn.stop");
+    hands.push(SDL_MOUSEBUTTONUP, "turn.stop");
+    REQUIRE(hands.until([&] { return !hands.has("turn.stop"); }));
+    hands.settle();
+    CHECK(hands.viewer().camera().position == position);
+    CHECK(std::filesystem::exists(own.folder / "part/my_shader_000.png"));
+    CHECK_FALSE(std::filesystem::exists(own.folder / "part/my_shader_050.png"));
+
     hands.click("record");
     hands.click("turn.cancel");
     CHECK_FALSE(hands.has("turn.begin"));

@@ -89,6 +89,24 @@ struct Hands
         SDL_PushEvent(&event);
         settle();
     }
+    // One event of the mouse on a control, and one frame: where the window will not come to rest.
+    void push(SDL_EventType type, const std::string& name) const
+    {
+        REQUIRE(until([&] { return has(name); }));
+        const Place p = place(name);
+        SDL_Event event = {};
+        event.type = type;
+        if (type == SDL_MOUSEMOTION) {
+            event.motion.x = static_cast<int>((p.left + p.right) / 2.0f);
+            event.motion.y = static_cast<int>((p.top + p.bottom) / 2.0f);
+        } else {
+            event.button.button = SDL_BUTTON_LEFT;
+            event.button.x = static_cast<int>((p.left + p.right) / 2.0f);
+            event.button.y = static_cast<int>((p.top + p.bottom) / 2.0f);
+        }
+        SDL_PushEvent(&event);
+        application->step();
+    }
     // At a part of the control's width and height.
     void click(const std::string& name, float across = 0.5f, float down = 0.5f) const
     {
