@@ -242,16 +242,16 @@ constexpr int fieldCount()
         return -1;
     } else {
         using Fields = std::make_index_sequence<static_cast<std::size_t>(n)>;
-        if constexpr (n < kMaxFields && detail::takes<T, detail::AnySemantic>(Fields{})) {
+        constexpr bool more = detail::takes<T, detail::AnySemantic>(Fields{});
+        if constexpr (more && n < kMaxFields) {
             return fieldCount<T, n + 1>();
         } else {
             constexpr bool otherField = detail::takes<T, detail::Anything>(Fields{});
-            constexpr bool tooMany = detail::takes<T, detail::AnySemantic>(Fields{});  // more than kMaxFields
             constexpr bool hasBase = requires
             {
                 T{detail::AnyBaseOf<T>{}};
             };
-            return otherField || tooMany || hasBase || detail::hasArray<T>(Fields{}) ? -1 : n;
+            return otherField || more || hasBase || detail::hasArray<T>(Fields{}) ? -1 : n;
         }
     }
 }

@@ -19,7 +19,7 @@ namespace {
 
 using Clock = live::Watch::Clock;
 
-constexpr int kErrors = 5;
+constexpr int kErrors = 5;  // saves with a mistake, at most
 
 double milliseconds(Clock::duration time)
 {
@@ -51,32 +51,32 @@ double median(std::vector<double> values)
     return values[values.size() / 2];
 }
 
-// Waits for the version's picture, and shows it.
-Expected<void> awaitPicture(live::Session& session, Window& window, int version)
+// Two minutes at most.
+template <class Condition>
+Expected<void> await(live::Session& session, const char* what, const Condition& condition)
 {
     const Clock::time_point begin = Clock::now();
-    while (session.picture().version < version) {
+    while (!condition()) {
         session.update(std::chrono::milliseconds(100));
-        if (session.problem() != nullptr) {
-            std::fputs(session.problem()->text().c_str(), stderr);
-            return fail(session.source().path + ": gives no picture; see above");
-        }
-        if (Clock::now() - begin > std::chrono::minutes(2)) return fail(session.source().path + ": no picture in time");
+        if (Clock::now() - begin > std::chrono::minutes(2))
+            return fail(session.source().path + ": no " + what + " in time");
+    }
+    return {};
+}
+
+// The version's picture, in the window.
+Expected<void> awaitPicture(live::Session& session, Window& window, int version)
+{
+    const Expected<void> ready =
+        await(session, "picture", [&] { return session.picture().version >= version || session.problem() != nullptr; });
+    if (!ready) return ready;
+    if (session.problem() != nullptr) {
+        std::fputs(session.problem()->text().c_str(), stderr);
+        return fail(session.source().path + ": gives no picture; see above");
     }
     SDL_PumpEvents();
     const live::Picture& picture = session.picture();
     window.show({picture.drawn.width, picture.drawn.height, picture.pixels});
-    return {};
-}
-
-// Waits for the error of what was saved.
-Expected<void> awaitError(live::Session& session)
-{
-    const Clock::time_point begin = Clock::now();
-    while (session.problem() == nullptr) {
-        session.update(std::chrono::milliseconds(100));
-        if (Clock::now() - begin > std::chrono::minutes(2)) return fail(session.source().path + ": no error in time");
-    }
     return {};
 }
 
@@ -117,14 +117,14 @@ Expected<Saves> measure(const live::StageSource& source, const LiveBenchOptions&
     for (int i = 0; i < std::min(options.saves, kErrors); ++i) {
         const Clock::time_point begin = Clock::now();
         save("float3 wrong() { return float3(nothing" + std::to_string(i) + ", 1); }\n");
-        if (const Expected<void> shown = awaitError(**session); !shown) return tl::unexpected(shown.error());
+        const Expected<void> told = await(**session, "error", [&] { return (*session)->problem() != nullptr; });
+        if (!told) return tl::unexpected(told.error());
         saves.error.push_back(milliseconds(Clock::now() - begin));
         save("// right " + std::to_string(i) + "\n");
         version += 2;
-        while ((*session)->problem() != nullptr || (*session)->picture().version < version) {
-            (*session)->update(std::chrono::milliseconds(100));
-            if (Clock::now() - begin > std::chrono::minutes(2)) return fail(copy.path + ": no picture in time");
-        }
+        const Expected<void> right =
+            await(**session, "picture", [&] { return (*session)->picture().version >= version; });
+        if (!right) return tl::unexpected(right.error());
     }
     return saves;
 }

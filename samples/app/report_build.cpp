@@ -40,14 +40,16 @@ struct Unit
 constexpr const char* kFolders[][2] = {{"engine/", "engine"},
                                        {"samples/common/", "common"},
                                        {"samples/app/", "app"},
+                                       {"samples/live/", "live"},
+                                       {"samples/view/", "view"},
                                        {"samples/", "stage"},
                                        {"tests/benchmarks/", "benchmarks"},
                                        {"tests/experiments/", "experiments"},
                                        {"tests/", "tests"},
                                        {"assets/", "tests"}};
 
-constexpr const char* kKinds[] = {"precompiled", "engine",     "common",      "stage", "app",
-                                  "tests",       "benchmarks", "experiments", "header"};
+constexpr const char* kKinds[] = {"precompiled", "engine", "common",     "stage",       "app",   "live",
+                                  "view",        "tests",  "benchmarks", "experiments", "header"};
 
 // --- what there is to compile ---
 

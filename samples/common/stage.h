@@ -19,7 +19,7 @@ struct Stage
     std::string_view news;     // what is new, in one line
     UniformStructs uniforms;   // declared<MyVertexProgram, MyFragmentProgram>()
     std::string_view mesh;     // as in Inputs; empty: the stage draws a shape of its own
-    float cubesTurnedBy = 35.0f;
+    float cubesTurnedBy = kCubesTurnedBy;
     Camera camera;
     void (*draw)(const Scene&) = nullptr;
 

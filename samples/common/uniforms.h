@@ -57,6 +57,7 @@ struct Property
 // What a stage reads from files. A texture's name is that of a file in assets/; empty: the stage has no such input;
 // kNone: it has one, but nothing is in it by default. The import settings are those of Unity's inspector.
 inline constexpr const char* kNone = "none";
+inline constexpr float kCubesTurnedBy = 35.0f;
 
 struct Inputs
 {
@@ -66,8 +67,8 @@ struct Inputs
         ImportSettings settings;
     };
 
-    std::string mesh;             // "quad", "cube", "sphere", "terrain"; several with + between them stand side by side
-    float cubesTurnedBy = 35.0f;  // degrees about Y, where there are several shapes
+    std::string mesh;  // "quad", "cube", "sphere", "terrain"; several with + between them stand side by side
+    float cubesTurnedBy = kCubesTurnedBy;  // degrees about Y, where there are several shapes
     PerTexture<TextureInput> textures;
 };
 
@@ -168,10 +169,7 @@ struct UniformStructs
 template <class... Structs>
 constexpr UniformStructs declared()
 {
-    if constexpr (sizeof...(Structs) == 0)
-        return {};
-    else
-        return {detail::kDeclare<Structs...>, sizeof...(Structs)};
+    return {detail::kDeclare<Structs...>, sizeof...(Structs)};
 }
 
 }  // namespace relief::samples

@@ -47,8 +47,12 @@
 #include "common/triplanar_methods.h"
 
 // Never called: what destroys and moves these is then in the precompiled headers, not made again for each stage.
-inline void instantiated(relief::Mesh mesh, std::vector<std::string> words)
+namespace relief::samples::live {
+
+inline void instantiated(Mesh mesh, std::vector<std::string> words)
 {
-    const relief::Mesh moved = std::move(mesh);
+    const Mesh moved = std::move(mesh);
     words.emplace_back(moved.name + words[0]);
 }
+
+}  // namespace relief::samples::live
