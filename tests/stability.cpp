@@ -79,7 +79,7 @@ constexpr Case kCases[] = {
     {"S-407", "w from 1e-30 to 1e38", "0/0", "off by at most 8 * 2^-24", kTested},
     {"S-408", "attributes that are not interpolated", "interpolated constants change", "the bits of a corner", kTested},
     {"S-409", "opposite normals at two corners", "their middle has no direction: NaN", "finite; no direction is no light", kTested},
-    {"S-410", "an attribute at the centre of a partly covered pixel", "out of range", "at a covered sample", "there is no multisampling: the one sample is the centre"},
+    {"S-410", "an attribute at the centre of a partly covered pixel", "out of range", "with centroid at a covered sample", kTested},
     {"S-411", "attributes in 16-bit floats", "infinite above 65504", "as 32 bits", "attributes are 32-bit floats"},
     {"S-412", "a triangle of 16384 px", "an error that grows from pixel to pixel", "S-401's bound at the last pixel", kTested},
     // --- derivatives and level of detail ---

@@ -54,7 +54,7 @@ TEST_CASE("tile: load and store keep every bit (S-318, S-957)")
                     Framebuffer source = makeTarget(size[0], size[1], format, depth);
                     fillWithNumbers(source);
                     Framebuffer copy = makeTarget(size[0], size[1], format, depth);
-                    Tile tile(tileSize, source.attachments());
+                    Tile tile(tileSize, TargetMemory(source));
                     const TargetMemory from(source), to(copy);
                     for (int y = 0; y < size[1]; y += tileSize) {
                         for (int x = 0; x < size[0]; x += tileSize) {
@@ -91,7 +91,7 @@ TEST_CASE("tile: store and clear write their own rectangle only (S-957)")
             }
             return changed + kept;
         };
-        Tile tile(16, target.attachments());
+        Tile tile(16, TargetMemory(target));
         tile.begin(32, 16, TargetMemory(target), {color, 2.0f});
         tile.store(TargetMemory(target));
         CHECK(changedOutside({32, 16, 48, 32}) == 0);
@@ -114,7 +114,7 @@ TEST_CASE("tile: a cleared tile and a cleared rectangle are the same, also for c
         for (const glm::vec4& color : {glm::vec4(0.1f, 0.5f, 0.9f, 0.3f), glm::vec4(-1.0f, 2.0f, 1e30f, -0.0f),
                                        glm::vec4(nan, infinity, -infinity, nan)}) {
             Framebuffer a = makeTarget(20, 20, format), b = makeTarget(20, 20, format), c = makeTarget(20, 20, format);
-            Tile tile(32, a.attachments());
+            Tile tile(32, TargetMemory(a));
             tile.begin(0, 0, TargetMemory(a), {color, 1.0f});
             tile.store(TargetMemory(a));
             clearRectangle(TargetMemory(b), {0, 0, 32, 32}, {color, 1.0f});
@@ -138,7 +138,7 @@ TEST_CASE("tile: blocks hold the pixels that their lanes name")
 {
     Framebuffer target = makeTarget(64, 64, Format::rgba32f, Store::keep);
     fillWithNumbers(target);
-    Tile tile(32, target.attachments());
+    Tile tile(32, TargetMemory(target));
     tile.begin(32, 0, TargetMemory(target), {});
     int wrong = 0;
     for (int y = 0; y < 32; y += kBlockHeight) {
@@ -163,7 +163,7 @@ TEST_CASE("tile: blocks hold the pixels that their lanes name")
 TEST_CASE("tile: nothing of the tile before remains after clear and load")
 {
     Framebuffer target = makeTarget(40, 40, Format::rgba8, Store::discard);
-    Tile tile(32, target.attachments());
+    Tile tile(32, TargetMemory(target));
     tile.begin(0, 0, TargetMemory(target), {glm::vec4(1.0f), 0.25f});
     tile.begin(32, 32, TargetMemory(target), {std::nullopt, 0.75f});
     for (int block = 0; block < 32 * 32 / kLanes; ++block) {

@@ -15,11 +15,13 @@
 namespace relief::inline RELIEF_WIDTH {
 
 // How a value gets from the vertices to a pixel: linear in space, linear on the screen, or the first vertex's.
+// Centroid: linear in space, at a place that the triangle covers where it does not cover the pixel's centre.
 enum class Interpolation
 {
     perspective,
     affine,
-    flat
+    flat,
+    centroid
 };
 
 // A value with a meaning. `Meaning` is the semantic's tag, `T` one of Float, float2, float3, float4, Int, int2 ...
@@ -121,11 +123,15 @@ template <int index, class T>
 using COLOR = Semantic<semantic::Color<index>, T>;
 
 // HLSL's interpolation modifiers: linear on the screen instead of in space; the triangle's first vertex's value, which
-// integers must have.
+// integers must have; where a pixel has several samples and the triangle does not cover its centre, the value at the
+// first sample that it covers, which no other triangle's colour bleeds into. Differences between pixels (ddx) of the
+// last kind are unreliable there, as everywhere.
 template <class S>
 using noperspective = typename semantic::With<S, Interpolation::affine>::Type;
 template <class S>
 using nointerpolation = typename semantic::With<S, Interpolation::flat>::Type;
+template <class S>
+using centroid = typename semantic::With<S, Interpolation::centroid>::Type;
 
 template <class T>
 inline constexpr int kComponents = 1;
@@ -310,6 +316,12 @@ template <class... Field>
 constexpr int interpolatedComponents(FieldList<Field...>)
 {
     return (0 + ... + (Field::kIsPosition ? 0 : kComponents<typename Field::Value>));
+}
+
+template <class... Field>
+constexpr bool usesCentroid(FieldList<Field...>)
+{
+    return (false || ... || (Field::kInterpolation == Interpolation::centroid));
 }
 
 // What a vertex program may give and a fragment program takes: semantics only, and one SV_POSITION among them.

@@ -9,11 +9,13 @@ namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
-// Whether no pixel centre of the square of `size` pixels at (x, y) is inside the edge.
-bool rejects(const EdgeFunction& edge, int x, int y, int size)
+// Whether no pixel centre of the square of `size` pixels at (x, y) is inside the edge, nor anything so near to one.
+bool rejects(const EdgeFunction& edge, int x, int y, int size, int sampleReach)
 {
     const std::int64_t reach = size - 1;
-    return edge.coverage(x, y) + reach * std::max(0, edge.stepX) + reach * std::max(0, edge.stepY) < 0;
+    const SamplePattern::Position innermost = {edge.stepX < 0 ? -sampleReach : sampleReach,
+                                               edge.stepY < 0 ? -sampleReach : sampleReach};
+    return edge.coverage(x, y, innermost) + reach * std::max(0, edge.stepX) + reach * std::max(0, edge.stepY) < 0;
 }
 
 // kLanes triangles of one draw, or fewer: the tiles that their pixels' bounds span.
@@ -21,7 +23,7 @@ struct TileSpans
 {
     Int x0, y0, x1, y1;  // tiles, all included
 
-    TileSpans(const Triangle* first, std::uint32_t count, const TileGrid& grid, const Rectangle& bounds)
+    TileSpans(const Triangle* first, std::uint32_t count, const TileGrid& grid, const DrawGeometry& draw)
     {
         const std::byte* address[2][kLanes];
         for (std::uint32_t i = 0; i < kLanes; ++i) {
@@ -32,7 +34,7 @@ struct TileSpans
         native::loadTransposed(address[0], w);
         native::loadTransposed(address[1], w + 4);
         const Int x[3] = {Int(w[0]), Int(w[1]), Int(w[2])}, y[3] = {Int(w[3]), Int(w[4]), Int(w[5])};
-        const RectangleLanes pixels = sampleBounds(x, y, bounds);
+        const RectangleLanes pixels = sampleBounds(x, y, draw.bounds, draw.sampleReach);
         const int shift = std::countr_zero(static_cast<unsigned>(grid.tileSize));
         x0 = pixels.x0 >> shift;
         y0 = pixels.y0 >> shift;
@@ -42,14 +44,15 @@ struct TileSpans
 };
 
 // A triangle over several tiles: those that no edge keeps out.
-void binLarge(TriangleChunk& chunk, std::uint32_t index, const TileGrid& grid, int x0, int y0, int x1, int y1)
+void binLarge(TriangleChunk& chunk, std::uint32_t index, const TileGrid& grid, int sampleReach, int x0, int y0, int x1,
+              int y1)
 {
     const Triangle& t = chunk.triangles[index];
     const EdgeFunction edges[3] = {edgeOf(t, 0), edgeOf(t, 1), edgeOf(t, 2)};
     for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
             const bool outside = std::any_of(edges, edges + 3, [&](const EdgeFunction& edge) {
-                return rejects(edge, x * grid.tileSize, y * grid.tileSize, grid.tileSize);
+                return rejects(edge, x * grid.tileSize, y * grid.tileSize, grid.tileSize, sampleReach);
             });
             if (!outside) chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.width + x), index});
         }
@@ -65,7 +68,8 @@ void findTiles(TriangleChunk& chunk, std::uint32_t begin, const TileGrid& grid, 
         const Triangle* const first = &chunk.triangles[next];
         std::uint32_t count = 1;
         while (count < kLanes && next + count < total && first[count].drawIndex == first->drawIndex) ++count;
-        const TileSpans span(first, count, grid, draws[first->drawIndex]->bounds);
+        const DrawGeometry& draw = *draws[first->drawIndex];
+        const TileSpans span(first, count, grid, draw);
         const Int tile = span.y0 * Int(grid.width) + span.x0;
         const unsigned single = ((span.x0 == span.x1) & (span.y0 == span.y1)).bits();
         for (std::uint32_t i = 0; i < count; ++i, ++next) {
@@ -73,7 +77,8 @@ void findTiles(TriangleChunk& chunk, std::uint32_t begin, const TileGrid& grid, 
             if ((single >> i & 1u) != 0) {
                 chunk.entries.push_back({static_cast<std::uint32_t>(tile[lane]), next});
             } else {
-                binLarge(chunk, next, grid, span.x0[lane], span.y0[lane], span.x1[lane], span.y1[lane]);
+                binLarge(chunk, next, grid, draw.sampleReach, span.x0[lane], span.y0[lane], span.x1[lane],
+                         span.y1[lane]);
             }
         }
     }

@@ -104,7 +104,7 @@ float mixed(const ClipVertex& vertex, const float (&corner)[3], Interpolation in
     const auto nearest = std::max_element(vertex.weight, vertex.weight + 3) - vertex.weight;
     const std::ptrdiff_t b = (nearest + 1) % 3, c = (nearest + 2) % 3;
     const float from = corner[nearest];
-    if (interpolation == Interpolation::perspective)
+    if (interpolation != Interpolation::affine)
         return from + vertex.weight[b] * (corner[b] - from) + vertex.weight[c] * (corner[c] - from);
     const auto part = [&](std::ptrdiff_t k) { return vertex.onScreen[k] * (static_cast<double>(corner[k]) - from); };
     constexpr double largest = std::numeric_limits<float>::max();

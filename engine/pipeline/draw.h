@@ -41,8 +41,9 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
 // Vertices first ... first + count - 1 of all instances, into the geometry's arrays.
 void shadeVertices(const Draw& draw, std::uint32_t first, std::uint32_t count);
 
-// Covered blocks of one tile, in order; all triangles belong to this draw, this chunk and this batch.
-void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const TriangleBatch& batch,
-                 const TriangleChunk& chunk, Tile& tile, Statistics& statistics);
+// Covered blocks of one tile, in order; all triangles belong to this draw, this chunk and this batch. `samples` of each
+// block, where the tile has several a pixel.
+void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const SampleCoverage* samples,
+                 const TriangleBatch& batch, const TriangleChunk& chunk, Tile& tile, Statistics& statistics);
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -10,6 +10,7 @@
 
 #include "lanes/int.h"
 #include "pipeline/geometry.h"
+#include "pipeline/sample_pattern.h"
 
 namespace relief::inline RELIEF_WIDTH {
 
@@ -31,12 +32,22 @@ struct EdgeFunction
     // others) or left edge it is (D3D 11.3, 3.4.2.1). For all other edges E = 0 is outside.
     bool isTopLeft() const { return stepX > 0 || (stepX == 0 && stepY > 0); }
 
-    // floor(E / 256), lowered by one unit of E unless the edge is top-left, at the centre of pixel (x, y):
-    // not negative exactly where the pixel is inside, because whole pixels change E by multiples of 256.
-    std::int64_t coverage(int x, int y) const
+    // floor(E / 256), lowered by one unit of E unless the edge is top-left, at the centre of pixel (x, y), or at a
+    // sample so many sub-pixels from it: not negative exactly where that is inside, because whole pixels change E by
+    // multiples of 256.
+    std::int64_t coverage(int x, int y, SamplePattern::Position sample = {0, 0}) const
     {
-        const std::int64_t biased = origin - (isTopLeft() ? 0 : 1);
-        return (biased >> kSubpixelBits) + static_cast<std::int64_t>(stepX) * x + static_cast<std::int64_t>(stepY) * y;
+        const std::int64_t biased = at(sample) - (isTopLeft() ? 0 : 1);
+        return (biased >> kSubpixelBits) + along(x, y);
+    }
+
+    // E at a sample of pixel (0, 0).
+    std::int64_t at(SamplePattern::Position sample) const { return origin + along(sample.x, sample.y); }
+
+private:
+    std::int64_t along(int x, int y) const
+    {
+        return static_cast<std::int64_t>(stepX) * x + static_cast<std::int64_t>(stepY) * y;
     }
 };
 
@@ -59,12 +70,13 @@ inline std::int32_t highest(const std::int32_t v[3])
     return high > v[2] ? high : v[2];
 }
 
-// The pixels whose centres lie within the triangle's bounds, clipped; may be empty.
-inline Rectangle sampleBounds(const Triangle& t, const Rectangle& clip)
+// The pixels whose centres lie within the triangle's bounds, clipped; may be empty. With a reach, those that have a
+// point so far from the centre or nearer, in sub-pixels, within the bounds: all that could have a sample there.
+inline Rectangle sampleBounds(const Triangle& t, const Rectangle& clip, int reach = 0)
 {
-    constexpr int half = kSubpixels / 2;
-    return intersect({(lowest(t.x) + half - 1) >> kSubpixelBits, (lowest(t.y) + half - 1) >> kSubpixelBits,
-                      ((highest(t.x) - half) >> kSubpixelBits) + 1, ((highest(t.y) - half) >> kSubpixelBits) + 1},
+    const int first = kSubpixels / 2 - 1 - reach, last = kSubpixels / 2 - reach;
+    return intersect({(lowest(t.x) + first) >> kSubpixelBits, (lowest(t.y) + first) >> kSubpixelBits,
+                      ((highest(t.x) - last) >> kSubpixelBits) + 1, ((highest(t.y) - last) >> kSubpixelBits) + 1},
                      clip);
 }
 
@@ -74,13 +86,13 @@ struct RectangleLanes
     Int x0, y0, x1, y1;
 };
 
-inline RectangleLanes sampleBounds(const Int (&x)[3], const Int (&y)[3], const Rectangle& clip)
+inline RectangleLanes sampleBounds(const Int (&x)[3], const Int (&y)[3], const Rectangle& clip, int reach)
 {
-    constexpr int half = kSubpixels / 2;
+    const int first = kSubpixels / 2 - 1 - reach, last = kSubpixels / 2 - reach;
     const Int minX = min(min(x[0], x[1]), x[2]), maxX = max(max(x[0], x[1]), x[2]);
     const Int minY = min(min(y[0], y[1]), y[2]), maxY = max(max(y[0], y[1]), y[2]);
-    return {max((minX + (half - 1)) >> kSubpixelBits, clip.x0), max((minY + (half - 1)) >> kSubpixelBits, clip.y0),
-            min(((maxX - half) >> kSubpixelBits) + 1, clip.x1), min(((maxY - half) >> kSubpixelBits) + 1, clip.y1)};
+    return {max((minX + first) >> kSubpixelBits, clip.x0), max((minY + first) >> kSubpixelBits, clip.y0),
+            min(((maxX - last) >> kSubpixelBits) + 1, clip.x1), min(((maxY - last) >> kSubpixelBits) + 1, clip.y1)};
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

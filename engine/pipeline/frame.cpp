@@ -168,19 +168,18 @@ Statistics Frame::Storage::run()
     prepare();
     shadeVertices();
     cutPrimitives();
-    Part part = {0, 0, clear, TargetMemory(target)};
-    clearDiscarded(part);
-    for (;;) {
+    const TargetMemory memory(target);
+    const Clear cleared = clearOf(memory);
+    betweenParts.assign(static_cast<std::size_t>(grid.count()), {});
+    for (Part part = {0, 0, false}; !part.isLast; startNextPart(part)) {
         setUpAndBin(part.first);
         while (part.last < usedChunks && chunks[part.last].isReady && chunks[part.last].rest.empty()) ++part.last;
-        const bool isWhole = part.last == usedChunks;
+        part.isLast = part.last == usedChunks;
         // A chunk that was too much for the room is drawn as far as it goes.
-        if (!isWhole && chunks[part.last].isReady) ++part.last;
-        if (!isWhole) keepDiscarded(part);
-        workers.run(grid.count(),
-                    [&](int tile, int worker) { drawTile(part, tile, perWorker[static_cast<std::size_t>(worker)]); });
-        if (isWhole) break;
-        startNextPart(part);
+        if (!part.isLast && chunks[part.last].isReady) ++part.last;
+        workers.run(grid.count(), [&](int tile, int worker) {
+            drawTile(part, memory, cleared, tile, perWorker[static_cast<std::size_t>(worker)]);
+        });
     }
     betweenParts.clear();
 
@@ -192,32 +191,22 @@ Statistics Frame::Storage::run()
 }
 
 // What a target does not keep is cleared in any case.
-void Frame::Storage::clearDiscarded(Part& part) const
+Clear Frame::Storage::clearOf(const TargetMemory& memory) const
 {
-    for (std::size_t i = 0; i < part.memory.words.size(); ++i) {
-        if (part.memory.words[i] != nullptr) continue;
-        const bool isDepth = part.memory.attachments[i].format == Format::depth32f;
-        if (isDepth && !part.clear.depth) part.clear.depth = 1.0f;
-        if (!isDepth && !part.clear.color) part.clear.color = glm::vec4(0.0f);
+    Clear all = clear;
+    for (std::size_t i = 0; i < memory.words.size(); ++i) {
+        if (memory.words[i] != nullptr) continue;
+        const bool isDepth = memory.attachments[i].format == Format::depth32f;
+        if (isDepth && !all.depth) all.depth = 1.0f;
+        if (!isDepth && !all.color) all.color = glm::vec4(0.0f);
     }
-}
-
-// Until the next part.
-void Frame::Storage::keepDiscarded(Part& part)
-{
-    const std::size_t pixels = static_cast<std::size_t>(target.width()) * static_cast<std::size_t>(target.height());
-    betweenParts.resize(part.memory.words.size());
-    for (std::size_t i = 0; i < betweenParts.size(); ++i) {
-        if (part.memory.words[i] != nullptr) continue;
-        const int words = wordsPerPixel(part.memory.attachments[i].format);
-        betweenParts[i].resize(pixels * static_cast<std::size_t>(words));
-        part.memory.words[i] = betweenParts[i].data();
-    }
+    return all;
 }
 
 // From the first chunk on that has something left; the others are done with.
 void Frame::Storage::startNextPart(Part& part)
 {
+    if (part.isLast) return;
     for (; part.first < part.last; ++part.first) {
         Chunk& chunk = chunks[part.first];
         binned -= static_cast<std::uint32_t>(chunk.entries.size());
@@ -226,7 +215,6 @@ void Frame::Storage::startNextPart(Part& part)
         if (!chunk.rest.empty()) break;
     }
     part.last = part.first;
-    part.clear = {};
 }
 
 // The target may be another one than when the draws were recorded.
@@ -238,10 +226,11 @@ void Frame::Storage::prepare()
     touched.assign(static_cast<std::size_t>(grid.count()), 0);
     for (Draw& draw : draws) {
         draw.geometry.bounds = intersect(draw.geometry.bounds, {0, 0, target.width(), target.height()});
+        draw.geometry.sampleReach = target.samples().reach;
     }
     for (Worker& worker : perWorker) {
         worker.statistics = {};
-        if (worker.tile && !worker.tile->isFor(target.attachments())) worker.tile.reset();
+        if (worker.tile && !worker.tile->isFor(TargetMemory(target))) worker.tile.reset();
     }
 }
 
@@ -318,30 +307,43 @@ void Frame::Storage::setUpAndBin(Chunk& chunk, const DrawGeometry* const* geomet
     sortByTile(chunk, grid);
 }
 
-void Frame::Storage::drawTile(const Part& part, int tileIndex, Worker& worker)
+void Frame::Storage::drawTile(const Part& part, const TargetMemory& memory, const Clear& cleared, int tileIndex,
+                              Worker& worker)
 {
     const auto tile = static_cast<std::size_t>(tileIndex);
     bool isTouched = false;
     for (std::size_t c = part.first; c < part.last && !isTouched; ++c) {
         isTouched = chunks[c].binStart[tile] != chunks[c].binStart[tile + 1];
     }
-    if (!isTouched && !part.clear.color && !part.clear.depth) return;
+    std::vector<std::int32_t>& before = betweenParts[tile];
+    const bool isNew = before.empty();
+    if (!isTouched && !part.isLast) return;
+    if (!isTouched && isNew && !cleared.color && !cleared.depth) return;
 
     const Rectangle pixels = tilePixels(tileIndex);
-    if (leavesOut::tiles && !isTouched) return clearRectangle(part.memory, pixels, part.clear);
-    if (!worker.tile) worker.tile = std::make_unique<Tile>(grid.tileSize, target.attachments());
-    worker.tile->begin(pixels.x0, pixels.y0, part.memory, part.clear);
+    if (leavesOut::tiles && !isTouched && isNew) return clearRectangle(memory, pixels, cleared);
+    if (!worker.tile) worker.tile = std::make_unique<Tile>(grid.tileSize, memory);
+    if (isNew) {
+        worker.tile->begin(pixels.x0, pixels.y0, memory, cleared);
+    } else {
+        worker.tile->restore(pixels.x0, pixels.y0, before);
+    }
     if (!touched[tile]) ++worker.statistics.tilesTouched;
     touched[tile] = 1;
     shading.fetches = {};
     for (std::size_t c = part.first; c < part.last; ++c) drawBin(chunks[c], tileIndex, worker);
     worker.statistics.fetches += shading.fetches;
-    worker.tile->store(part.memory);
+    if (part.isLast) {
+        worker.tile->store(memory);
+    } else {
+        before = worker.tile->save();
+    }
 }
 
 void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker)
 {
     worker.blocks.resize(coveredBlocks());
+    if (worker.tile->samples().isMultiple()) worker.samples.resize(coveredBlocks());
     const auto tile = static_cast<std::size_t>(tileIndex);
     const std::uint32_t last = chunk.binStart[tile + 1];
     for (std::uint32_t next = chunk.binStart[tile]; next < last;) {
@@ -359,10 +361,11 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
             __builtin_prefetch(&chunk.triangles[chunk.sorted[i]]);
         const Rectangle clip = intersect(tilePixels(tileIndex), draw.geometry.bounds);
         TriangleBatch batch;
-        batch.set({triangles, count}, clip);
+        batch.set({triangles, count}, clip, worker.tile->samples());
         CoveredBlock* const blocks = worker.blocks.data();
-        const CoveredBlock* const end = rasterise(batch, clip, blocks);
-        if (end != blocks) shadeBlocks(draw, {blocks, end}, batch, chunk, *worker.tile, worker.statistics);
+        const CoveredBlock* const end = rasterise(batch, clip, blocks, worker.samples.data());
+        if (end != blocks)
+            shadeBlocks(draw, {blocks, end}, worker.samples.data(), batch, chunk, *worker.tile, worker.statistics);
     }
 }
 

@@ -41,6 +41,7 @@ struct Frame::Storage
     {
         std::unique_ptr<Tile> tile;
         std::vector<CoveredBlock> blocks;
+        std::vector<SampleCoverage> samples;
         Statistics statistics;
     };
 
@@ -60,25 +61,22 @@ struct Frame::Storage
         bool isReady = false;  // set up as far as it goes
     };
 
-    // Chunks first ... last - 1 are drawn onto what `clear` says. There are several parts where a frame has too many
-    // triangles to bin them all at once.
+    // Chunks first ... last - 1. There are several parts where a frame has too many triangles to bin them all at once.
     struct Part
     {
         std::size_t first, last;
-        Clear clear;
-        TargetMemory memory;
+        bool isLast;
     };
 
     Statistics run();
     void prepare();
     void shadeVertices();
     void cutPrimitives();
-    void clearDiscarded(Part& part) const;
-    void keepDiscarded(Part& part);
+    Clear clearOf(const TargetMemory& memory) const;
     void startNextPart(Part& part);
     void setUpAndBin(std::size_t firstChunk);
     void setUpAndBin(Chunk& chunk, const DrawGeometry* const* geometry, Statistics& statistics);
-    void drawTile(const Part& part, int tileIndex, Worker& worker);
+    void drawTile(const Part& part, const TargetMemory& memory, const Clear& cleared, int tileIndex, Worker& worker);
     void drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker);
 
     Rectangle tilePixels(int tileIndex) const
@@ -98,8 +96,8 @@ struct Frame::Storage
     std::atomic<std::uint32_t> binned{0};  // pairs in the chunks
     std::vector<std::uint8_t> touched;     // tiles that a triangle was binned into
 
-    // What a discarded attachment holds between the parts of a frame.
-    std::vector<std::vector<std::uint32_t>> betweenParts;
+    // What tiles hold between the parts of a frame; nothing of those that no triangle has touched yet.
+    std::vector<std::vector<std::int32_t>> betweenParts;
 
     // A component of a draw that is NaN at every vertex, for dependsOn(); none where `draw` is -1.
     struct Poison

@@ -23,7 +23,8 @@ int find(const std::vector<Attachment>& attachments, bool depth)
 
 }  // namespace
 
-Expected<Framebuffer> Framebuffer::create(int width, int height, const std::vector<Attachment>& attachments)
+Expected<Framebuffer> Framebuffer::create(int width, int height, const std::vector<Attachment>& attachments,
+                                          int samples)
 {
     const std::string size = "size " + std::to_string(width) + "x" + std::to_string(height);
     if (width < 1 || height < 1 || width > kMaxTargetSize || height > kMaxTargetSize) {
@@ -35,10 +36,15 @@ Expected<Framebuffer> Framebuffer::create(int width, int height, const std::vect
         return fail("a target of " + std::to_string(colors) + " colour and " + std::to_string(depths) +
                     " depth attachments is not possible: give it one of either kind, or one of each");
     }
+    if (samplePattern(samples) == nullptr) {
+        return fail("a target with " + std::to_string(samples) +
+                    " samples a pixel is not possible: choose 1, 2, 4 or 8");
+    }
 
     Framebuffer target;
     target.mWidth = width;
     target.mHeight = height;
+    target.mSamples = samplePattern(samples);
     target.mAttachments = attachments;
     target.mWords.resize(attachments.size());
     for (std::size_t i = 0; i < attachments.size(); ++i) {
@@ -54,13 +60,17 @@ Expected<Framebuffer> Framebuffer::create(int width, int height, const std::vect
     return target;
 }
 
-Expected<Framebuffer> Framebuffer::create(int width, int height, Format color, Store depth)
+Expected<Framebuffer> Framebuffer::create(int width, int height, Format color, Store depth, int samples)
 {
-    return create(width, height, std::vector<Attachment>{{color, Store::keep}, {Format::depth32f, depth}});
+    return create(width, height, std::vector<Attachment>{{color, Store::keep}, {Format::depth32f, depth}}, samples);
 }
 
 Framebuffer::Framebuffer(const Framebuffer& other)
-    : mWidth(other.mWidth), mHeight(other.mHeight), mAttachments(other.mAttachments), mWords(other.mWords.size())
+    : mWidth(other.mWidth),
+      mHeight(other.mHeight),
+      mSamples(other.mSamples),
+      mAttachments(other.mAttachments),
+      mWords(other.mWords.size())
 {
     for (std::size_t i = 0; i < mWords.size(); ++i) {
         const std::size_t bytes = wordCount(static_cast<int>(i)) * sizeof(std::uint32_t);

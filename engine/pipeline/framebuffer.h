@@ -12,6 +12,7 @@
 
 #include "error.h"
 #include "pipeline/limits.h"
+#include "pipeline/sample_pattern.h"
 
 namespace relief {
 
@@ -51,11 +52,16 @@ class Framebuffer
 public:
     // At most one colour and one depth attachment, in any order. Width and height 1 ... 16384. Colours are 0 at first,
     // depths 1. An error for other sizes and lists, and where the memory cannot be had.
-    static Expected<Framebuffer> create(int width, int height, const std::vector<Attachment>& attachments);
+    //
+    // Samples: 1, 2, 4 or 8 a pixel. More than one live in the tiles only, while they are drawn. What is kept of them
+    // is their mean, of colours in linear light, and the first one's depth. A frame that does not clear begins with all
+    // samples of a pixel the same.
+    static Expected<Framebuffer> create(int width, int height, const std::vector<Attachment>& attachments,
+                                        int samples = 1);
 
     // The usual: a colour that is kept, and a depth.
     static Expected<Framebuffer> create(int width, int height, Format color = Format::rgba8Srgb,
-                                        Store depth = Store::discard);
+                                        Store depth = Store::discard, int samples = 1);
 
     Framebuffer(const Framebuffer& other);
     Framebuffer(Framebuffer&&) noexcept = default;
@@ -64,6 +70,7 @@ public:
 
     int width() const { return mWidth; }
     int height() const { return mHeight; }
+    const SamplePattern& samples() const { return *mSamples; }
 
     const std::vector<Attachment>& attachments() const { return mAttachments; }
 
@@ -103,6 +110,7 @@ private:
     std::span<Pixel> pixels(Format format) const;
 
     int mWidth = 0, mHeight = 0;
+    const SamplePattern* mSamples = &kOneSample;
     std::vector<Attachment> mAttachments;
     std::vector<Words> mWords;  // of each attachment
 };

@@ -93,7 +93,7 @@ struct DrawGeometry
     std::uint32_t componentCount = 0;               // words to interpolate per vertex
     std::uint32_t componentStride = 0;              // and from one vertex to the next: a multiple of four
     const Interpolation* interpolations = nullptr;  // componentCount of them
-    bool hasFlat = false;                           // any of them
+    bool hasFlat = false, hasCentroid = false;      // any of them
 
     glm::vec4* clip = nullptr;       // per vertex
     ScreenVertex* screen = nullptr;  // per vertex
@@ -106,6 +106,7 @@ struct DrawGeometry
     int lineWidth = 1;  // pixels
     Cull cull = Cull::back;
     bool depthClip = true;
+    int sampleReach = 0;  // of the target's samples from a pixel's centre
     std::uint32_t drawIndex = 0;
 };
 

@@ -104,9 +104,9 @@ void noteInterpolator(const WatchedBlock& b, unsigned lanes)
         const int slot = slots.first + c;
         CornerComponents<1> corners;
         corners.set(first + slot, second + slot, third + slot);
-        Float value = slots.interpolation == Interpolation::perspective ? corners.perspective(0, weights)
-                      : slots.interpolation == Interpolation::affine    ? corners.affine(0, weights)
-                                                                        : corners.flat(0);
+        Float value = slots.interpolation == Interpolation::flat     ? corners.flat(0)
+                      : slots.interpolation == Interpolation::affine ? corners.affine(0, weights)
+                                                                     : corners.perspective(0, weights);
         if (slots.isInteger) value = Float(asInt(value));
         if (b.draw.result->view.name == "uv") value = value - floor(value);
         b.forPixels(lanes, [&](glm::vec4& pixel, int lane) { pixel[c] = value[lane]; });

@@ -23,8 +23,8 @@ using Broadcast = std::conditional_t<kLanes == 4, Float, float>;
 class TriangleEdges
 {
 public:
-    // The batch must live as long.
-    void set(const TriangleBatch& batch, int lane)
+    // At the pixels' centres, or at one of their samples. The batch must live as long.
+    void set(const TriangleBatch& batch, int lane, SamplePattern::Position sample = {0, 0})
     {
         small = (batch.small >> lane & 1u) != 0;
         if (small) {
@@ -32,17 +32,18 @@ public:
             for (int k = 1; k < 3; ++k) {
                 stepX[k] = batch.stepX[k][lane];
                 stepY[k] = batch.stepY[k][lane];
-                smallLanes[k] = laneXs() * stepX[k] + laneYs() * stepY[k] + batch.origin[k][lane];
+                smallLanes[k] = laneXs() * stepX[k] + laneYs() * stepY[k] + batch.origin[k][lane] +
+                                ((stepX[k] >> kSubpixelBits) * sample.x + (stepY[k] >> kSubpixelBits) * sample.y);
             }
             return;
         }
         const Triangle& triangle = *batch.triangle[lane];
-        largeSum = static_cast<double>(edgeOf(triangle, 0).origin);
+        largeSum = static_cast<double>(edgeOf(triangle, 0).at(sample));
         for (int k = 1; k < 3; ++k) {
             const EdgeFunction edge = edgeOf(triangle, k);
             // stepX * 3 + stepY * 3 stays below 2^27; times 256 it needs the double.
             const Int steps = laneXs() * edge.stepX + laneYs() * edge.stepY;
-            const auto origin = static_cast<double>(edge.origin);
+            const auto origin = static_cast<double>(edge.at(sample));
             largeLanes[k] = Double(steps) * Double(kSubpixels) + Double(origin);
             largeStepX[k] = static_cast<double>(edge.stepX) * kSubpixels;
             largeStepY[k] = static_cast<double>(edge.stepY) * kSubpixels;
@@ -206,12 +207,15 @@ struct CornerComponents
     }
 };
 
-// Fills in a fragment program's input. What the program does not read, the compiler leaves out.
+// Fills in a fragment program's input. What the program does not read, the compiler leaves out. `centroid` holds the
+// edge functions at the centroids: the pixels' centres, where a pixel has one sample.
 template <class Interpolators, int components>
 Interpolators interpolate(const TriangleWeights& triangle, const CornerComponents<components>& corners,
-                          const Float (&edge)[3], unsigned covered, int x, int y)
+                          const Float (&edge)[3], const Float (&centroid)[3], unsigned covered, int x, int y)
 {
     const BlockWeights w = triangle.of(edge, covered);
+    BlockWeights atCentroid;
+    if constexpr (usesCentroid(FieldsOf<Interpolators>{})) atCentroid = triangle.of(centroid, covered);
     Interpolators result;
     int slot = 0;
     forEachField(result, [&]<class Field>(Field& field) {
@@ -222,9 +226,11 @@ Interpolators interpolate(const TriangleWeights& triangle, const CornerComponent
             field.w = triangle.clipW(w);
         } else {
             for (int c = 0; c < kComponents<typename Field::Value>; ++c, ++slot) {
-                const Float value = Field::kInterpolation == Interpolation::perspective ? corners.perspective(slot, w)
-                                    : Field::kInterpolation == Interpolation::affine    ? corners.affine(slot, w)
-                                                                                        : corners.flat(slot);
+                constexpr Interpolation how = Field::kInterpolation;
+                const Float value = how == Interpolation::perspective ? corners.perspective(slot, w)
+                                    : how == Interpolation::affine    ? corners.affine(slot, w)
+                                    : how == Interpolation::centroid  ? corners.perspective(slot, atCentroid)
+                                                                      : corners.flat(slot);
                 setWord(component(static_cast<typename Field::Value&>(field), c), value);
             }
         }

@@ -56,7 +56,7 @@ bool append(const DrawGeometry& draw, std::array<Corner, 3> corners, const End& 
         t.vertex[k] = corners[k].end->vertex;
     }
     t.drawIndex = draw.drawIndex;
-    const Rectangle pixels = sampleBounds(t, draw.bounds);
+    const Rectangle pixels = sampleBounds(t, draw.bounds, draw.sampleReach);
     if (pixels.x0 >= pixels.x1 || pixels.y0 >= pixels.y1) return false;
     chunk.triangles.push_back(t);
     return true;

@@ -134,17 +134,9 @@ template <Format format>
 class ColorWriter
 {
 public:
-    // A block's live pixels, a bit each, linear; `color` stays where it is until the next call. Returns how many of
-    // them had a NaN or an infinity.
-    int write(std::int32_t* words, const Channels& color, unsigned live)
-    {
-        const int invalid = encodeUnlessSame(color, live);
-        encoded.store(words, Mask::fromBits(live), StoredColor<format>::load(words));
-        return invalid;
-    }
-
-private:
-    int encodeUnlessSame(const Channels& channels, unsigned live)
+    // The words of a block's colours, linear, which stay where they are until the next call. Returns how many of the
+    // live pixels, a bit each, had a NaN or an infinity.
+    int encode(const Channels& channels, unsigned live)
     {
         float4 color = loadChannels(channels);
         if (last != nullptr && isSame(color, loadChannels(*last))) return 0;
@@ -158,6 +150,10 @@ private:
         return sanitizeColor(color, Mask::fromBits(live));
     }
 
+    // Writes them where a block is live.
+    void store(std::int32_t* words, Mask live) const { encoded.store(words, live, StoredColor<format>::load(words)); }
+
+private:
     static bool isSame(const float4& a, const float4& b)
     {
         const auto changed = [](Float x, Float y) { return asInt(x) ^ asInt(y); };
@@ -168,17 +164,14 @@ private:
     StoredColor<format> encoded;
 };
 
-// With it: a block's live pixels, linear. Returns as above.
+// With it: a block's live pixels, linear and finite.
 template <Format format>
-int blendInto(std::int32_t* words, Blend blend, const Channels& channels, Mask live)
+void blendOnto(std::int32_t* words, Blend blend, float4 color, Mask live)
 {
     const auto old = StoredColor<format>::load(words);
-    float4 color = loadChannels(channels);
-    const int invalid = sanitizeColor(color, live);
     color = blendColors(blend, isUnorm(format) ? saturate(color) : color, decodeColor<format>(old.words));
     if (!isUnorm(format)) sanitizeColor(color, live);  // sums may overflow
     StoredColor<format>{encodeColor<format>(color)}.store(words, live, old);
-    return invalid;
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -40,13 +40,15 @@ struct VertexLanes
 // wait for.
 struct ShadedBlock
 {
-    alignas(Float) float edge[3][kLanes];   // the edge functions at its pixels, if there is anything to interpolate
-    alignas(Float) float color[4][kLanes];  // what the program gives
-    unsigned discarded;                     // what it throws away, a bit per lane
-    unsigned live;                          // pixels whose result counts
-    unsigned quads;                         // those with such a pixel, whole
-    int index;                              // in the tile
-    CoveredBlock covered;
+    alignas(Float) float edge[3][kLanes];      // the edge functions at its pixels, if there is anything to interpolate
+    alignas(Float) float centroid[3][kLanes];  // and at their centroids, if the program asks for them
+    alignas(Float) float color[4][kLanes];     // what the program gives
+    unsigned discarded;                        // what it throws away, a bit per lane
+    unsigned live;                             // pixels whose result counts
+    unsigned quads;                            // those with such a pixel, whole
+    int index;                                 // in the tile
+    CoveredBlock covered;                      // its coverage: the lanes whose pixel's centre is in the triangle
+    SampleCoverage liveSamples;                // where a pixel has several: of each, the lanes where it counts
 };
 
 // The components of a triangle's three corners.
@@ -125,7 +127,9 @@ void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle,
         Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
         // Where nothing is interpolated, SV_POSITION alone may want to know them: the compiler sees whether it does.
         if constexpr (components == 0) edges.at(block.covered.x, block.covered.y, edge);
-        return interpolate<Interpolators>(triangle, corners, edge, block.covered.coverage, block.covered.x,
+        const auto& c = block.centroid;
+        const Float centroid[3] = {Float::load(c[0]), Float::load(c[1]), Float::load(c[2])};
+        return interpolate<Interpolators>(triangle, corners, edge, centroid, block.covered.coverage, block.covered.x,
                                           block.covered.y);
     };
     const auto store = [&](const float4& color) {

@@ -109,7 +109,11 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
     g.componentCount = static_cast<std::uint32_t>(programs.components);
     g.componentStride = (g.componentCount + 3) & ~3u;
     g.interpolations = draw.interpolations.data();
-    g.hasFlat = std::count(draw.interpolations.begin(), draw.interpolations.end(), Interpolation::flat) > 0;
+    const auto interpolates = [&draw](Interpolation how) {
+        return std::find(draw.interpolations.begin(), draw.interpolations.end(), how) != draw.interpolations.end();
+    };
+    g.hasFlat = interpolates(Interpolation::flat);
+    g.hasCentroid = interpolates(Interpolation::centroid);
     g.primitive = state.primitive;
     g.lineWidth = state.lineWidth;
     g.cull = state.cull;

@@ -45,6 +45,7 @@ struct RenderState
     bool depthClip = true;  // false: z beyond near and far is clamped instead of clipped
     Cull cull = Cull::back;
     Blend blend = Blend::off;
+    bool alphaToCoverage = false;  // of n samples the first alpha * n, rounded, are drawn; one: from alpha 0.5 on
     Primitive primitive = Primitive::triangles;
     int lineWidth = 1;  // pixels: 1 or 2
 };

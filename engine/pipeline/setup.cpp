@@ -125,10 +125,10 @@ Orientation orient(const TriangleLanes& t, Cull cull)
     return {front | back, back};
 }
 
-// The lanes with a pixel centre in the triangle's bounds and within the draw's.
-unsigned coversSample(const TriangleLanes& t, const Rectangle& bounds)
+// The lanes with a pixel centre, or what could be another sample, in the triangle's bounds and within the draw's.
+unsigned coversSample(const TriangleLanes& t, const DrawGeometry& draw)
 {
-    const RectangleLanes pixels = sampleBounds(t.x, t.y, bounds);
+    const RectangleLanes pixels = sampleBounds(t.x, t.y, draw.bounds, draw.sampleReach);
     return ((pixels.x0 < pixels.x1) & (pixels.y0 < pixels.y1)).bits();
 }
 
@@ -182,7 +182,7 @@ Survivors emit(const DrawGeometry& draw, const TriangleLanes& t, unsigned candid
 {
     const Orientation orientation = orient(t, draw.cull);
     const unsigned facing = candidates & orientation.kept;
-    const unsigned kept = facing & coversSample(t, draw.bounds);
+    const unsigned kept = facing & coversSample(t, draw);
     if (kept == 0) return {facing, kept};
     if ((kept & orientation.swapped) != 0) {
         TriangleLanes clockwise = t;

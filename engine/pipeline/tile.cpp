@@ -95,21 +95,45 @@ void loadBlocks(std::int32_t* blocks, int width, int height, int blocksWide, std
     });
 }
 
+// The mean of a block's samples, `count` (a power of two) of them one after the other, in linear light. Equal ones give
+// themselves.
+template <Format format>
+void resolveColor(const std::int32_t* samples, int count, std::int32_t* to)
+{
+    const float share = 1.0f / static_cast<float>(count);
+    float4 sum = 0.0f;
+    for (int s = 0; s < count; ++s) {
+        std::array<Int, static_cast<std::size_t>(wordsPerPixel(format))> words;
+        for (Int& word : words) {
+            word = Int::load(samples);
+            samples += kLanes;
+        }
+        sum = sum + decodeColor<format>(words) * share;
+    }
+    for (const Int& word : encodeColor<format>(sum)) {
+        word.store(to);
+        to += kLanes;
+    }
+}
+
 }  // namespace
 
 TargetMemory::TargetMemory(Framebuffer& target)
-    : width(target.width()), height(target.height()), attachments(target.attachments())
+    : width(target.width()), height(target.height()), samples(&target.samples()), attachments(target.attachments())
 {
     for (std::size_t i = 0; i < attachments.size(); ++i) words.push_back(target.words(static_cast<int>(i)).data());
 }
 
-Tile::Tile(int tileSize, const std::vector<Attachment>& attachments)
-    : size(tileSize), blocksWide(tileSize / kBlockWidth), blockCount(blocksWide * (tileSize / kBlockHeight))
+Tile::Tile(int tileSize, const TargetMemory& target)
+    : size(tileSize),
+      blocksWide(tileSize / kBlockWidth),
+      blockCount(blocksWide * (tileSize / kBlockHeight)),
+      pattern(target.samples)
 {
-    const auto pixels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
-    for (const Attachment& attachment : attachments) {
-        const auto words = static_cast<std::size_t>(wordsPerPixel(attachment.format));
-        planes.push_back({attachment.format, std::make_unique<std::int32_t[]>(pixels * words)});
+    for (const Attachment& attachment : target.attachments) {
+        Plane plane = {attachment.format, nullptr};
+        plane.words = std::make_unique<std::int32_t[]>(wordCount(plane));
+        planes.push_back(std::move(plane));
     }
     for (const Plane& plane : planes) {
         if (plane.format == Format::depth32f) {
@@ -122,10 +146,16 @@ Tile::Tile(int tileSize, const std::vector<Attachment>& attachments)
     mBounds = std::make_unique<DepthBounds[]>(static_cast<std::size_t>(blockCount));
 }
 
-bool Tile::isFor(const std::vector<Attachment>& attachments) const
+bool Tile::isFor(const TargetMemory& target) const
 {
-    return std::equal(planes.begin(), planes.end(), attachments.begin(), attachments.end(),
+    return pattern == target.samples &&
+           std::equal(planes.begin(), planes.end(), target.attachments.begin(), target.attachments.end(),
                       [](const Plane& plane, const Attachment& a) { return plane.format == a.format; });
+}
+
+std::size_t Tile::wordCount(const Plane& plane) const
+{
+    return static_cast<std::size_t>(blockCount * kLanes * pattern->count * wordsPerPixel(plane.format));
 }
 
 void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
@@ -150,12 +180,12 @@ void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
 
 void Tile::fill(const Plane& plane, const std::int32_t (&value)[4])
 {
-    const int words = wordsPerPixel(plane.format);
+    const int words = wordsPerPixel(plane.format), blocks = blockCount * pattern->count;
     if (words == 1) {
-        std::fill_n(plane.words.get(), blockCount * kLanes, value[0]);
+        std::fill_n(plane.words.get(), blocks * kLanes, value[0]);
         return;
     }
-    for (int block = 0; block < blockCount; ++block) {
+    for (int block = 0; block < blocks; ++block) {
         for (int c = 0; c < words; ++c)
             std::fill_n(&plane.words[static_cast<std::size_t>((block * words + c) * kLanes)], kLanes, value[c]);
     }
@@ -168,13 +198,42 @@ void Tile::load(const Plane& plane, const TargetMemory& target, const std::uint3
     const int width = std::min(size, target.width - originX), height = std::min(size, target.height - originY);
     const int words = wordsPerPixel(plane.format);
     const auto loadPlane = words == 1 ? loadBlocks<1> : words == 2 ? loadBlocks<2> : loadBlocks<4>;
-    loadPlane(plane.words.get(), width, height, blocksWide, stride, from + first * static_cast<std::size_t>(words));
+    std::int32_t* to = plane.words.get();
+    if (pattern->isMultiple()) {
+        onePerPixel.assign(static_cast<std::size_t>(blockCount * kLanes * words), 0);
+        to = onePerPixel.data();
+    }
+    loadPlane(to, width, height, blocksWide, stride, from + first * static_cast<std::size_t>(words));
+    for (int k = 0; k < blockCount * pattern->count && pattern->isMultiple(); ++k)
+        std::copy_n(to + k / pattern->count * kLanes * words, kLanes * words, plane.words.get() + k * kLanes * words);
+}
+
+// What is kept of several samples, block by block: the mean of colours, the first one's depth.
+const std::int32_t* Tile::resolved(const Plane& plane)
+{
+    if (!pattern->isMultiple()) return plane.words.get();
+    const int count = pattern->count;
+    onePerPixel.resize(wordCount(plane) / static_cast<std::size_t>(count));
+    withFormat(plane.format, [&]<Format format>() {
+        constexpr int words = kLanes * wordsPerPixel(format);
+        for (int block = 0; block < blockCount; ++block) {
+            const std::int32_t* from = plane.words.get() + block * count * words;
+            std::int32_t* to = onePerPixel.data() + block * words;
+            if constexpr (format == Format::depth32f) {
+                std::copy_n(from, words, to);
+            } else {
+                resolveColor<format>(from, count, to);
+            }
+        }
+    });
+    return onePerPixel.data();
 }
 
 void Tile::setBounds()
 {
     for (int block = 0; block < blockCount; ++block) {
-        const auto [low, high] = std::minmax_element(depth(block), depth(block) + kLanes);
+        const float* first = depth(sampleOf(block, 0));
+        const auto [low, high] = std::minmax_element(first, first + kLanes * pattern->count);
         bounds(block) = {*low, *high};
     }
 }
@@ -197,7 +256,7 @@ void Tile::refreshWholeBounds()
     }
 }
 
-void Tile::store(const TargetMemory& target) const
+void Tile::store(const TargetMemory& target)
 {
     const auto stride = static_cast<std::size_t>(target.width);
     const std::size_t first = static_cast<std::size_t>(originY) * stride + static_cast<std::size_t>(originX);
@@ -206,9 +265,30 @@ void Tile::store(const TargetMemory& target) const
         if (target.words[i] == nullptr) continue;
         const int words = wordsPerPixel(planes[i].format);
         const auto storePlane = words == 1 ? storeBlocks<1> : words == 2 ? storeBlocks<2> : storeBlocks<4>;
-        storePlane(planes[i].words.get(), width, height, blocksWide, stride,
+        storePlane(resolved(planes[i]), width, height, blocksWide, stride,
                    target.words[i] + first * static_cast<std::size_t>(words));
     }
+}
+
+std::vector<std::int32_t> Tile::save() const
+{
+    std::vector<std::int32_t> saved;
+    for (const Plane& plane : planes) saved.insert(saved.end(), &plane.words[0], &plane.words[0] + wordCount(plane));
+    return saved;
+}
+
+void Tile::restore(int x, int y, const std::vector<std::int32_t>& saved)
+{
+    originX = x;
+    originY = y;
+    const std::int32_t* from = saved.data();
+    for (const Plane& plane : planes) {
+        std::copy_n(from, wordCount(plane), plane.words.get());
+        from += wordCount(plane);
+    }
+    if (!hasDepth()) return;
+    setBounds();
+    refreshWholeBounds();
 }
 
 void packColor(const glm::vec4& color, Format format, std::int32_t (&words)[4])

@@ -26,10 +26,12 @@ struct Clear
     std::optional<float> depth;
 };
 
-// Where a target's attachments lie: null where there is nothing to load and store.
+// Where a target's attachments lie: null where there is nothing to load and store. One value a pixel, however many
+// samples it has.
 struct TargetMemory
 {
     int width = 0, height = 0;
+    const SamplePattern* samples;
     std::vector<Attachment> attachments;
     std::vector<std::uint32_t*> words;
 
@@ -39,19 +41,25 @@ struct TargetMemory
 class Tile
 {
 public:
-    // For tiles of `size` x `size` pixels of targets with these attachments.
-    Tile(int size, const std::vector<Attachment>& attachments);
+    // For tiles of `size` x `size` pixels of such targets.
+    Tile(int size, const TargetMemory& target);
 
     Tile(const Tile&) = delete;
     Tile& operator=(const Tile&) = delete;
 
-    bool isFor(const std::vector<Attachment>& attachments) const;
+    bool isFor(const TargetMemory& target) const;
 
     // Starts on the tile at pixel (x, y): from the clear values, or from what the target holds.
     void begin(int x, int y, const TargetMemory& target, const Clear& clear);
 
-    // Writes the pixels that lie in the target.
-    void store(const TargetMemory& target) const;
+    // Writes the pixels that lie in the target; of several samples what is kept of them.
+    void store(const TargetMemory& target);
+
+    // All that the tile holds, every sample, for later.
+    std::vector<std::int32_t> save() const;
+    void restore(int x, int y, const std::vector<std::int32_t>& saved);
+
+    const SamplePattern& samples() const { return *pattern; }
 
     int blockAt(int x, int y) const
     {
@@ -63,13 +71,15 @@ public:
     bool hasDepth() const { return depthWords != nullptr; }
     Format colorFormat() const { return mColorFormat; }
 
-    // A block's words: the first ones of all lanes, then the second ones. The caller knows the format.
+    // A block's words: the first ones of all lanes, then the second ones. The caller knows the format. Where a pixel
+    // has several samples, `block` is sampleOf() one of them.
     template <Format format>
     std::int32_t* color(int block)
     {
         return colorWords + static_cast<std::ptrdiff_t>(block) * (kLanes * wordsPerPixel(format));
     }
     float* depth(int block) { return depthWords + static_cast<std::ptrdiff_t>(block) * kLanes; }
+    int sampleOf(int block, int sample) const { return block * pattern->count + sample; }
     DepthBounds& bounds(int block) { return mBounds[static_cast<std::size_t>(block)]; }
 
     // Of all blocks together: conservative, and as narrow as they were when they were last refreshed.
@@ -85,14 +95,18 @@ private:
 
     void fill(const Plane& plane, const std::int32_t (&value)[4]);
     void load(const Plane& plane, const TargetMemory& target, const std::uint32_t* words);
+    const std::int32_t* resolved(const Plane& plane);
+    std::size_t wordCount(const Plane& plane) const;
     void setBounds();
 
     int size, blocksWide, blockCount;
+    const SamplePattern* pattern;
     int originX = 0, originY = 0;
     std::vector<Plane> planes;           // one for each attachment
     std::int32_t* colorWords = nullptr;  // where the two lie
     float* depthWords = nullptr;
     Format mColorFormat = Format::rgba8;
+    std::vector<std::int32_t> onePerPixel;  // room, where there are several samples
     std::unique_ptr<DepthBounds[]> mBounds;
     DepthBounds mWholeBounds{};
 };

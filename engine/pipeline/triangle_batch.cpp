@@ -18,7 +18,7 @@ struct Corners
 
 void setBounds(TriangleBatch& batch, const Corners& c, const Rectangle& clip)
 {
-    const RectangleLanes pixels = sampleBounds(c.x, c.y, clip);
+    const RectangleLanes pixels = sampleBounds(c.x, c.y, clip, batch.samples->reach);
     batch.x0 = pixels.x0 & -kBlockWidth;
     batch.y0 = pixels.y0 & -kBlockHeight;
     batch.x1 = pixels.x1;
@@ -86,8 +86,10 @@ void setDepth(TriangleBatch& batch, const Float (&z)[3])
 
 }  // namespace
 
-void TriangleBatch::set(std::span<const Triangle* const> triangles, const Rectangle& clip)
+void TriangleBatch::set(std::span<const Triangle* const> triangles, const Rectangle& clip,
+                        const SamplePattern& samplePattern)
 {
+    samples = &samplePattern;
     // The 12 words before `vertex`, from one triangle after the other to one word after the other. Lanes that are not
     // used hold the first triangle again.
     static_assert(offsetof(Triangle, y) == 12 && offsetof(Triangle, z) == 24 && offsetof(Triangle, invW) == 36);

@@ -7,19 +7,22 @@
 
 #include "lanes/float.h"
 #include "pipeline/geometry.h"
+#include "pipeline/sample_pattern.h"
 
 namespace relief::inline RELIEF_WIDTH {
 
 struct TriangleBatch
 {
-    // Sets up `triangles` (1 ... kLanes) for the pixels of `clip`.
-    void set(std::span<const Triangle* const> triangles, const Rectangle& clip);
+    // Sets up `triangles` (1 ... kLanes) for the pixels of `clip` and their samples.
+    void set(std::span<const Triangle* const> triangles, const Rectangle& clip,
+             const SamplePattern& samplePattern = kOneSample);
 
+    const SamplePattern* samples;
     const Triangle* triangle[kLanes];
-    unsigned visible;  // a bit per triangle: there are pixel centres within its bounds and `clip`
+    unsigned visible;  // a bit per triangle: there are pixels within its bounds and `clip`
     unsigned small;    // a bit per triangle: its edge functions fit into 32 bits at every block that it touches
 
-    Int x0, y0, x1, y1;  // pixels within the bounds and `clip`; x0 and y0 moved to the block grid
+    Int x0, y0, x1, y1;  // those pixels (sampleBounds()); x0 and y0 moved to the block grid
 
     // The edge functions (edge_function.h) modulo 2^32, which is enough for small triangles.
     Int origin[3];           // at the centre of pixel (0, 0)

@@ -71,6 +71,7 @@ std::string meaningOf(const Draw& draw, const Field& field, const Slots& slots)
     }
     if (slots.interpolation == Interpolation::affine) meaning += ", linear on the screen";
     if (slots.interpolation == Interpolation::flat) meaning += ", the first vertex's";
+    if (slots.interpolation == Interpolation::centroid) meaning += ", at the centroid";
     return meaning;
 }
 

@@ -62,9 +62,11 @@ void addCompilerOption(CLI::App& command, std::string& compiler)
         ->check(CLI::IsMember({"g++", "clang++"}));
 }
 
-void addTileOption(CLI::App& command, int& tileSize)
+void addTargetOptions(CLI::App& command, RenderOptions& options)
 {
-    command.add_option("--tile", tileSize, "Tile size in pixels")->check(CLI::IsMember({16, 32, 64, 128}));
+    command.add_option("--tile", options.tileSize, "Tile size in pixels")->check(CLI::IsMember({16, 32, 64, 128}));
+    command.add_option("--samples", options.samples, "Samples a pixel, for smooth edges")
+        ->check(CLI::IsMember({1, 2, 4, 8}));
 }
 
 void addShowOption(CLI::App& command, std::string& show)
@@ -279,7 +281,7 @@ int runProgram(int argc, char** argv, const Program& program)
     command->add_option("-o,--output", output, "The file; default: the stage's name")->type_name("FILE.png");
     bool watch = false;
     addShowOption(*command, options.show);
-    addTileOption(*command, options.tileSize);
+    addTargetOptions(*command, options);
     command->add_flag("--watch", watch, "Writes the picture again whenever the stage's file is saved");
     addCompilerOption(*command, options.compiler);
     command->callback([&] { run("render", watch ? program.renderAtEverySave : program.render, options, output); });
@@ -300,7 +302,7 @@ int runProgram(int argc, char** argv, const Program& program)
     ViewOptions viewOptions;
     addInputOptions(*command, viewOptions.render);
     addShowOption(*command, viewOptions.render.show);
-    addTileOption(*command, viewOptions.render.tileSize);
+    addTargetOptions(*command, viewOptions.render);
     addCompilerOption(*command, viewOptions.render.compiler);
     command->add_option("--frames", viewOptions.frames, "Close after this many frames; 0: when the user does")
         ->check(CLI::Range(0, 1000000));
@@ -310,7 +312,7 @@ int runProgram(int argc, char** argv, const Program& program)
 
     command = app.add_subcommand("hash", "Prints the hash of a stage's float colour and depth");
     addInputOptions(*command, options);
-    addTileOption(*command, options.tileSize);
+    addTargetOptions(*command, options);
     command->callback([&] { run("hash", program.hash, options); });
 
     command = app.add_subcommand("signature", "Prints what a stage's vertex programs hand to its fragment programs");

@@ -55,10 +55,11 @@ Expected<void> list(bool json)
     return {};
 }
 
-Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, const FrameOptions& how,
+Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, const FrameOptions& how, int samples,
                                   const std::string& path, const std::string& show)
 {
-    Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, Format::rgba8Srgb);
+    Expected<Framebuffer> target =
+        Framebuffer::create(size.width, size.height, Format::rgba8Srgb, Store::discard, samples);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, how);
     stage.record(frame, size.width, size.height);
@@ -95,7 +96,8 @@ Expected<void> render(const RenderOptions& options, const std::string& output)
     if (options.show == "list") return listViews(*prepared, *size);
     const std::string path = output.empty() ? prepared->stage->stem + ".png" : output;
     const Expected<Statistics> done =
-        renderToFile(*prepared, *size, {.threads = options.threads, .tileSize = options.tileSize}, path, options.show);
+        renderToFile(*prepared, *size, {.threads = options.threads, .tileSize = options.tileSize}, options.samples,
+                     path, options.show);
     if (!done) return tl::unexpected(done.error());
     std::printf("%s\n", path.c_str());
     return {};
@@ -107,7 +109,8 @@ Expected<void> hash(const RenderOptions& options)
     if (!size) return tl::unexpected(size.error());
     const Expected<PreparedStage> prepared = prepare(options);
     if (!prepared) return tl::unexpected(prepared.error());
-    Expected<Framebuffer> target = Framebuffer::create(size->width, size->height, Format::rgba32f, Store::keep);
+    Expected<Framebuffer> target =
+        Framebuffer::create(size->width, size->height, Format::rgba32f, Store::keep, options.samples);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = options.threads, .tileSize = options.tileSize});
     prepared->record(frame, size->width, size->height);

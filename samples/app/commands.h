@@ -17,8 +17,9 @@ Expected<void> explain(const RenderOptions& options, bool json);
 Expected<void> gallery(const std::string& folder, int threads);
 Expected<void> view(const ViewOptions& options);
 
-// Renders into 8-bit sRGB colours, the picture or one of its views (common/inside.h), and writes a PNG.
-Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, const FrameOptions& how,
+// Renders into 8-bit sRGB colours with so many samples a pixel, the picture or one of its views (common/inside.h), and
+// writes a PNG.
+Expected<Statistics> renderToFile(const PreparedStage& stage, Size size, const FrameOptions& how, int samples,
                                   const std::string& path, const std::string& show = "");
 
 }  // namespace relief::samples

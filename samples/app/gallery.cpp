@@ -69,7 +69,7 @@ Expected<void> gallery(const std::string& folder, int threads)
         }
         const Expected<PreparedStage> prepared = PreparedStage::prepare(stage);
         if (!prepared) return tl::unexpected(prepared.error());
-        const Expected<Statistics> written = renderToFile(*prepared, kPicture, {.threads = threads}, path.string());
+        const Expected<Statistics> written = renderToFile(*prepared, kPicture, {.threads = threads}, 1, path.string());
         if (!written) return tl::unexpected(written.error());
     }
     const std::filesystem::path index = std::filesystem::path(folder) / "index.html";

@@ -15,7 +15,7 @@ struct RenderOptions
     std::string stage;
     std::string size = "960x540";
     int threads = 0;
-    int tileSize = kDefaultTileSize;  // of `render`, `view` and `hash`
+    int tileSize = kDefaultTileSize, samples = 1;  // of `render`, `view` and `hash`
     std::vector<std::string> settings;
     InputFiles files;
     std::string camera;  // as parseCamera() takes it; empty: the stage's

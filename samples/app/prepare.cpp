@@ -108,6 +108,7 @@ Expected<live::Look> lookOf(const RenderOptions& options)
                     .files = options.files,
                     .threads = options.threads,
                     .tileSize = options.tileSize,
+                    .samples = options.samples,
                     .showTangents = options.showTangents,
                     .tangentScale = options.tangentScale,
                     .tangentOffset = options.tangentOffset,

@@ -52,7 +52,13 @@ void put(Message& m, const Look& l)
 {
     m.put(l.width).put(l.height).put(l.camera.has_value()).put(l.camera.value_or(Camera{})).put(l.settings);
     put(m, l.files);
-    m.put(l.threads).put(l.tileSize).put(l.showTangents).put(l.tangentScale).put(l.tangentOffset).put(l.hash);
+    m.put(l.threads)
+        .put(l.tileSize)
+        .put(l.samples)
+        .put(l.showTangents)
+        .put(l.tangentScale)
+        .put(l.tangentOffset)
+        .put(l.hash);
     m.put(l.strict).put(l.show);
 }
 void get(Message& m, Look& l)
@@ -62,7 +68,13 @@ void get(Message& m, Look& l)
     m.get(l.width).get(l.height).get(hasCamera).get(camera).get(l.settings);
     if (hasCamera) l.camera = camera;
     get(m, l.files);
-    m.get(l.threads).get(l.tileSize).get(l.showTangents).get(l.tangentScale).get(l.tangentOffset).get(l.hash);
+    m.get(l.threads)
+        .get(l.tileSize)
+        .get(l.samples)
+        .get(l.showTangents)
+        .get(l.tangentScale)
+        .get(l.tangentOffset)
+        .get(l.hash);
     m.get(l.strict).get(l.show);
 }
 
@@ -277,10 +289,11 @@ Expected<Drawn> Drawing::draw(const Look& look)
 {
     if (const Expected<void> ready = prepare(look); !ready) return tl::unexpected(ready.error());
     const std::size_t pixels = static_cast<std::size_t>(look.width) * static_cast<std::size_t>(look.height);
-    if (!frame || target->width() != look.width || target->height() != look.height || threads != look.threads ||
-        tileSize != look.tileSize) {
+    if (!frame || target->width() != look.width || target->height() != look.height ||
+        target->samples().count != look.samples || threads != look.threads || tileSize != look.tileSize) {
         frame.reset();
-        Expected<Framebuffer> made = Framebuffer::create(look.width, look.height);
+        Expected<Framebuffer> made =
+            Framebuffer::create(look.width, look.height, Format::rgba8Srgb, Store::discard, look.samples);
         if (!made) return tl::unexpected(made.error());
         target = std::move(*made);
         threads = look.threads;
@@ -302,7 +315,8 @@ Expected<Drawn> Drawing::draw(const Look& look)
     drawn.milliseconds = time.count();
     std::memcpy(picture, target->color8().data(), pixels * sizeof(std::uint32_t));
     if (look.hash) {
-        Expected<Framebuffer> exact = Framebuffer::create(look.width, look.height, Format::rgba32f, Store::keep);
+        Expected<Framebuffer> exact =
+            Framebuffer::create(look.width, look.height, Format::rgba32f, Store::keep, look.samples);
         if (!exact) return tl::unexpected(exact.error());
         Frame again(*exact, {.threads = look.threads, .tileSize = look.tileSize});
         prepared->record(again, look.width, look.height);

@@ -29,7 +29,7 @@ struct Look
     std::optional<Camera> camera;       // none: the stage's
     std::vector<std::string> settings;  // "name=value", as of --set
     InputFiles files;
-    int threads = 0, tileSize = 64;
+    int threads = 0, tileSize = 64, samples = 1;
     bool showTangents = false;
     float tangentScale = 0.1f, tangentOffset = 0.01f;
     std::string show;   // a view of the frame, by name (common/inside.h); empty: its picture

@@ -45,6 +45,7 @@ std::string renderCommand(const live::StageSource& source, const live::Look& loo
     }
     if (!look.show.empty()) add("--show", look.show);
     if (look.tileSize != usual.tileSize) add("--tile", std::to_string(look.tileSize));
+    if (look.samples != usual.samples) add("--samples", std::to_string(look.samples));
     if (look.threads != usual.threads) add("--threads", std::to_string(look.threads));
     if (look.width != usual.width || look.height != usual.height) {
         add("--size", std::to_string(look.width) + "x" + std::to_string(look.height));

@@ -293,18 +293,23 @@ void Interface::pictureSection()
                                look.threads == 0 ? "all" : "%d", ImGuiSliderFlags_AlwaysClamp) ||
               changed;
     place("picture.threads");
-    row("tile size", false, false);
-    if (ImGui::BeginCombo("##tile", std::to_string(look.tileSize).c_str())) {
-        for (const int tile : {16, 32, 64, 128}) {
-            if (ImGui::Selectable(std::to_string(tile).c_str(), tile == look.tileSize)) {
-                look.tileSize = tile;
-                changed = true;
+    const auto oneOf = [&](const char* name, const std::string& word, std::initializer_list<int> numbers, int& chosen) {
+        row(name, false, false);
+        if (ImGui::BeginCombo(("##" + word).c_str(), std::to_string(chosen).c_str())) {
+            for (const int number : numbers) {
+                if (ImGui::Selectable(std::to_string(number).c_str(), number == chosen)) {
+                    chosen = number;
+                    changed = true;
+                }
+                place(word + "." + std::to_string(number));
             }
-            place("tile." + std::to_string(tile));
+            ImGui::EndCombo();
         }
-        ImGui::EndCombo();
-    }
-    place("picture.tile");
+        place("picture." + word);
+    };
+    oneOf("tile size", "tile", {16, 32, 64, 128}, look.tileSize);
+    oneOf("samples", "samples", {1, 2, 4, 8}, look.samples);
+    tooltip("Of a pixel: more make smooth edges");
     row("tangent space", false, false);
     changed = ImGui::Checkbox("as lines", &look.showTangents) || changed;
     place("picture.tangents");

@@ -54,6 +54,7 @@ TEST_CASE("view: the copied command renders the very picture: a stage of the boo
     checkSameBytes(hands, folder, "stages/relief_bumpiness_12_bump_scale");
     look.show = "blocks";
     look.tileSize = 32;
+    look.samples = 4;
     viewer.change(look);
     hands.settle();
     checkSameBytes(hands, folder, "stages/relief_bumpiness_12_bump_scale");

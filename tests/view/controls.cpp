@@ -111,7 +111,11 @@ TEST_CASE("view: camera, light, size, threads, tiles, lines, text")
     CHECK(viewer.look().threads >= 4);
     hands.choose("picture.tile", "tile.128");
     CHECK(viewer.look().tileSize == 128);
+    const std::vector<std::uint32_t> jagged = viewer.picture().colors;
+    hands.choose("picture.samples", "samples.8");
+    CHECK(viewer.look().samples == 8);
     const std::vector<std::uint32_t> plain = viewer.picture().colors;
+    CHECK(plain != jagged);
     hands.click("picture.tangents", 0.1f);
     CHECK(viewer.look().showTangents);
     CHECK(viewer.picture().colors != plain);
