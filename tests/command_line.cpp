@@ -296,6 +296,11 @@ TEST_CASE("command line: explain counts, hash does not depend on threads or tile
     const std::string one = run(folder.path, "hash 1.09 --size 96x54 --threads 1 --tile 32").out;
     CHECK(one.size() > 16);
     CHECK(run(folder.path, "hash 1.09 --size 96x54 --threads 3 --tile 128").out == one);
+
+    const std::string four = run(folder.path, "hash 1.22 --size 96x54 --samples 4 --threads 1 --tile 16").out;
+    CHECK(four != run(folder.path, "hash 1.22 --size 96x54").out);
+    CHECK(run(folder.path, "hash 1.22 --size 96x54 --samples 4 --threads 3").out == four);
+    checkRefused(folder.path, "hash 1.22 --samples 3", {"--samples", "3"});
 }
 
 TEST_CASE("command line: bumps of no height are the flat quad, and both ways to build a normal are one, bit for bit")

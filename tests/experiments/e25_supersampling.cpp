@@ -23,9 +23,29 @@ double exactCoverage(double cosine, double sine, double distance)
     return 1.0 - (a + b - t) * (a + b - t) / (2.0 * a * b);
 }
 
-// --- in doubles: a grid of n x n samples against every line ---
+// --- in doubles: samples against every line ---
 
-Error gridError(int n, int angles, int offsets)
+using Positions = std::vector<glm::dvec2>;  // from the pixel's centre
+
+Positions gridOf(int n)
+{
+    Positions positions;
+    for (int y = 0; y < n; ++y) {
+        for (int x = 0; x < n; ++x) positions.push_back({(x + 0.5) / n - 0.5, (y + 0.5) / n - 0.5});
+    }
+    return positions;
+}
+Positions patternOf(int samples)
+{
+    Positions positions;
+    for (int s = 0; s < samples; ++s) {
+        const auto [x, y] = samplePattern(samples)->position[static_cast<std::size_t>(s)];
+        positions.push_back({x / 256.0, y / 256.0});
+    }
+    return positions;
+}
+
+Error errorOf(const Positions& positions, int angles, int offsets)
 {
     ErrorSum sum;
     for (int i = 0; i < angles; ++i) {
@@ -34,17 +54,15 @@ Error gridError(int n, int angles, int offsets)
         for (int k = 0; k < offsets; ++k) {
             const double distance = reach * (2.0 * (k + 0.5) / offsets - 1.0);
             int inside = 0;
-            for (int y = 0; y < n; ++y) {
-                for (int x = 0; x < n; ++x)
-                    inside += c * ((x + 0.5) / n - 0.5) + s * ((y + 0.5) / n - 0.5) < distance ? 1 : 0;
-            }
-            sum.add(static_cast<double>(inside) / (n * n) - exactCoverage(c, s, distance), reach);
+            for (const glm::dvec2& p : positions) inside += c * p.x + s * p.y < distance ? 1 : 0;
+            sum.add(static_cast<double>(inside) / static_cast<double>(positions.size()) - exactCoverage(c, s, distance),
+                    reach);
         }
     }
     return sum.result();
 }
 
-// --- by the engine: a picture n times as wide and high, averaged ---
+// --- by the engine: with so many samples a pixel, or a picture n times as wide and high, averaged ---
 
 struct VertexData
 {
@@ -83,13 +101,22 @@ struct HalfPlane
     }
 };
 
-struct Supersampled
+struct Smooth
+{
+    int samples = 1;  // a pixel
+    int n = 1;        // times as wide and high
+};
+
+struct SmoothPicture
 {
     int n;
     std::shared_ptr<SmallFrame> large;
     std::vector<float> coverage = std::vector<float>(kSide * kSide);
 
-    explicit Supersampled(int samples) : n(samples), large(smallFrame(kSide * samples, kSide * samples)) {}
+    explicit SmoothPicture(Smooth how)
+        : n(how.n), large(smallFrame(kSide * n, kSide * n, Format::rgba32f, {.threads = 1}, how.samples))
+    {
+    }
 
     void draw(const HalfPlane& half)
     {
@@ -127,9 +154,9 @@ struct Supersampled
 };
 
 // Over lines in so many directions; `steepest`: those within so many degrees of an axis only.
-Error engineError(int n, int angles, double steepest)
+Error engineError(Smooth how, int angles, double steepest)
 {
-    Supersampled picture(n);
+    SmoothPicture picture(how);
     ErrorSum sum;
     for (int i = 0; i < angles; ++i) {
         const double degrees = 360.0 * (i + 0.37) / angles, fromAxis = std::fmod(degrees + 45.0, 90.0) - 45.0;
@@ -149,48 +176,75 @@ Experiment supersampling(Effort effort)
     e.id = "E-25";
     e.title = "Smooth edges by more samples";
     e.question =
-        "With one sample a pixel is inside a triangle or not: edges are stairs. The engine has no multisampling; a "
-        "picture drawn n times as wide and high, and averaged, is smooth. How far is a pixel's coverage from the "
-        "exact area, over the pixels that an edge passes, in all directions? Averaging is in the times.";
+        "With one sample a pixel is inside a triangle or not: edges are stairs. Several samples a pixel make them "
+        "smooth "
+        "(multisampling: coverage and depth at each, the program once), and so does a picture drawn n times as wide "
+        "and "
+        "high, and averaged (supersampling: everything n * n times). How far is a pixel's coverage from the exact "
+        "area, "
+        "over the pixels that an edge passes, in all directions? Averaging is in the times.";
     e.item = "finished pixel";
     e.unit = "parts of a pixel";
     const int angles = effort.samples(720, 240);
-    for (const int n : {1, 2, 4, 8}) {
-        const auto picture = std::make_shared<Supersampled>(n);
+    struct Named
+    {
+        std::string name;
+        Smooth how;
+    };
+    for (const auto& [name, how] : {Named{"1 sample", {1, 1}},
+                                    {"2 samples", {2, 1}},
+                                    {"4 samples", {4, 1}},
+                                    {"8 samples", {8, 1}},
+                                    {"2x2 pixels", {1, 2}},
+                                    {"4x4 pixels", {1, 4}},
+                                    {"8x8 pixels", {1, 8}}}) {
+        const auto picture = std::make_shared<SmoothPicture>(how);
         const auto half = std::make_shared<const HalfPlane>(0.3);
-        e.variants.push_back({std::to_string(n) + "x" + std::to_string(n),
+        const double samples = how.samples * how.n * how.n;
+        e.variants.push_back({name,
                               "",
                               [=] {
-                                  return Outcome(engineError(n, angles, 45.0),
-                                                 {{"RMS within 5 degrees of an axis", engineError(n, angles, 5.0).rms},
-                                                  {"levels", n * n + 1.0},
-                                                  {"bytes of colour", 4.0 * n * n}});
+                                  return Outcome(
+                                      engineError(how, angles, 45.0),
+                                      {{"RMS within 5 degrees of an axis", engineError(how, angles, 5.0).rms},
+                                       {"levels", samples + 1.0},
+                                       {"bytes of colour, in tiles", 4.0 * samples}});
                               },
                               {[=] { picture->draw(*half); }, kSide * kSide}});
     }
     struct Reference
     {
-        int n;
+        std::string name;
+        Positions positions;
+        Smooth how;
         double max, rms;
     };
-    for (const Reference& r : {Reference{1, .499749, .246875}, {4, .123286, .0304055}, {8, .0605561, .0106820}}) {
-        const std::string grid = "a grid of " + std::to_string(r.n) + "x" + std::to_string(r.n) + ": ";
+    for (const Reference& r : {Reference{"1 sample: ", gridOf(1), {1, 1}, .499749, .246875},
+                               {"4 samples: ", patternOf(4), {4, 1}, .307683, .0917425},
+                               {"8 samples: ", patternOf(8), {8, 1}, .226426, .0572788},
+                               {"4x4 pixels: ", gridOf(4), {1, 4}, .123286, .0304055},
+                               {"8x8 pixels: ", gridOf(8), {1, 8}, .0605561, .0106820}}) {
         const int offsets = effort.samples(2000, 500);
-        e.checks.push_back({grid + "largest", r.max, [=] { return gridError(r.n, 720, offsets).max; }, 0.02 * r.max});
-        e.checks.push_back({grid + "RMS", r.rms, [=] { return gridError(r.n, 720, offsets).rms; }, 0.02 * r.rms});
         e.checks.push_back(
-            {"the engine, " + grid + "RMS", r.rms, [=] { return engineError(r.n, angles, 45.0).rms; }, 0.02 * r.rms});
+            {r.name + "largest", r.max, [=] { return errorOf(r.positions, 720, offsets).max; }, 0.02 * r.max});
+        e.checks.push_back(
+            {r.name + "RMS", r.rms, [=] { return errorOf(r.positions, 720, offsets).rms; }, 0.02 * r.rms});
+        e.checks.push_back({"the engine, " + r.name + "RMS", r.rms,
+                            [=] { return engineError(r.how, angles, 45.0).rms; }, 0.02 * r.rms});
     }
     e.finding = [](const Rows& rows) {
-        const Row &one = rows("1x1"), &two = rows("2x2"), &four = rows("4x4"), &eight = rows("8x8");
-        return "One sample is " + number(one.outcome.error.rms, 3) + " of a pixel off, 4 samples " +
-               number(two.outcome.error.rms, 3) + ", 16 " + number(four.outcome.error.rms, 4) + ", 64 " +
-               number(eight.outcome.error.rms, 4) +
-               ": twice the width and height leave a third of the error, or less. "
-               "Along an axis a grid helps least, since its samples stand in line: 16 samples are " +
-               number(four.fact("RMS within 5 degrees of an axis"), 3) + " off there. A pixel takes " +
-               number(one.fastest, 1) + ", " + number(two.fastest, 1) + ", " + number(four.fastest, 1) + " and " +
-               number(eight.fastest, 1) + " ns.";
+        const Row &one = rows("1 sample"), &four = rows("4 samples"), &eight = rows("8 samples"),
+                  &grid4 = rows("2x2 pixels"), &grid16 = rows("4x4 pixels"), &grid64 = rows("8x8 pixels");
+        const auto rms = [](const Row& row) { return number(row.outcome.error.rms, 3); };
+        const auto nearAxis = [](const Row& row) { return number(row.fact("RMS within 5 degrees of an axis"), 3); };
+        return "One sample is " + rms(one) + " of a pixel off, 4 are " + rms(four) + ", 8 are " + rms(eight) +
+               "; pictures of twice, four times and eight times the size " + rms(grid4) + ", " + rms(grid16) + " and " +
+               rms(grid64) + ". Along an axis a grid helps least, since its samples stand in line: 4 in a square are " +
+               nearAxis(grid4) + " off there, the pattern's 4 " + nearAxis(four) + ". A pixel takes " +
+               number(one.fastest, 1) + " ns with one sample, " + number(four.fastest, 1) + " with 4, " +
+               number(eight.fastest, 1) + " with 8; " + number(grid4.fastest, 1) + ", " + number(grid16.fastest, 1) +
+               " and " + number(grid64.fastest, 1) +
+               " in larger pictures, and there the program runs for each of them.";
     };
     return e;
 }

@@ -14,16 +14,17 @@ struct SmallFrame
     Framebuffer target;
     Frame frame;
 
-    SmallFrame(int width, int height, Format format = Format::rgba32f, const FrameOptions& options = {.threads = 1})
-        : target(std::move(*Framebuffer::create(width, height, format, Store::keep))), frame(target, options)
+    SmallFrame(int width, int height, Format format = Format::rgba32f, const FrameOptions& options = {.threads = 1},
+               int samples = 1)
+        : target(std::move(*Framebuffer::create(width, height, format, Store::keep, samples))), frame(target, options)
     {
     }
 };
 
 inline std::shared_ptr<SmallFrame> smallFrame(int width, int height, Format format = Format::rgba32f,
-                                              const FrameOptions& options = {.threads = 1})
+                                              const FrameOptions& options = {.threads = 1}, int samples = 1)
 {
-    return std::make_shared<SmallFrame>(width, height, format, options);
+    return std::make_shared<SmallFrame>(width, height, format, options, samples);
 }
 
 // Running a recorded frame, as work.
