@@ -54,7 +54,7 @@ inline CoveredBlock* coverBlocks(int triangle, const Rectangle& pixels, const Re
             if constexpr (edges == 2) coverage &= ~signBits(value[0] | value[1]);
             if constexpr (edges == 3) coverage &= ~signBits(value[0] | value[1] | value[2]);
             if (clip != nullptr) coverage &= lanesWithin(*clip, x, y);
-            *out = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(coverage),
+            *out = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(coverage), static_cast<std::uint16_t>(y),
                     static_cast<std::uint16_t>(triangle)};
             out += coverage != 0 ? 1 : 0;
             // Most small triangles end here: nothing is worked out for blocks that do not follow.
