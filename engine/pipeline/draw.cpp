@@ -138,12 +138,17 @@ void testLate(const State& state, const TriangleInTile& triangle, ShadedBlock& b
 template <Format format>
 void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, Counts& counts)
 {
-    ColorWriter<format> writer;
-    for (const ShadedBlock& block : blocks) {
-        std::int32_t* const words = tile.color<format>(block.index);
-        counts.invalid += static_cast<unsigned>(
-            blend == Blend::off ? writer.write(words, block.color, block.live)
-                                : blendInto<format>(words, blend, block.color, Mask::fromBits(block.live)));
+    const auto forEach = [&](const auto& merge) {
+        for (const ShadedBlock& block : blocks)
+            counts.invalid += static_cast<unsigned>(merge(tile.color<format>(block.index), block));
+    };
+    if (blend == Blend::off) {
+        ColorWriter<format> writer;
+        forEach([&](std::int32_t* words, const ShadedBlock& b) { return writer.write(words, b.color, b.live); });
+    } else {
+        forEach([&](std::int32_t* words, const ShadedBlock& b) {
+            return blendInto<format>(words, blend, b.color, Mask::fromBits(b.live));
+        });
     }
 }
 
