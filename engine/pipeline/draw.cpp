@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "leave_out.h"
 #include "pipeline/output_merger.h"
@@ -68,19 +69,19 @@ struct TriangleInTile
 
 // Writes the depth of a block's live pixels.
 template <class State>
-void writeDepth(const State& state, const TriangleWeights& triangle, bool isWhole, Mask live, Float depth, Float old,
-                float* stored, DepthBounds& bounds)
+void writeDepth(const State& state, const TriangleWeights& triangle, bool isWhole, unsigned live, Float depth,
+                Float old, float* stored, DepthBounds& bounds)
 {
-    if (!state.depthWrite || none(live)) return;
-    select(live, depth, old).store(stored);
+    if (!state.depthWrite || live == 0) return;
+    select(Mask::fromBits(live), depth, old).store(stored);
     updateBounds(state.depthTest, triangle.nearest, triangle.farthest, isWhole, bounds);
 }
 
-// Before the program runs: which pixels pass the depth test. Their depth is written here, too, unless the program may
-// throw them away afterwards. Returns whether there is anything to shade.
+// Before the program runs: which pixels pass the depth test. `inTile`: bounds of all blocks together. Their depth is
+// written here, too, unless the program may throw them away afterwards. Returns whether there is anything to shade.
 template <class State>
-bool testEarly(const State& state, const TriangleInTile& triangle, const CoveredBlock& covered, bool isLarge,
-               ShadedBlock& block, Tile& tile, Counts& counts)
+bool testEarly(const State& state, const TriangleInTile& triangle, const CoveredBlock& covered,
+               const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
@@ -89,10 +90,7 @@ bool testEarly(const State& state, const TriangleInTile& triangle, const Covered
     const auto hidden = [&](const DepthBounds& bounds) {
         return isHidden(state.depthTest, weights.nearest, weights.farthest, bounds);
     };
-    if (leavesOut::hidden && state.usesDepth) {
-        if (isLarge && hidden(tile.wholeBounds())) return false;
-        if (hidden(tile.bounds(index))) return false;
-    }
+    if (leavesOut::hidden && state.usesDepth && (hidden(inTile) || hidden(tile.bounds(index)))) return false;
     unsigned live = coverage;
     if (state.usesDepth || state.readsEdges) {
         Float edge[3];
@@ -100,11 +98,10 @@ bool testEarly(const State& state, const TriangleInTile& triangle, const Covered
         if (state.usesDepth) {
             float* const stored = tile.depth(index);
             const Float depth = weights.depth(edge[1], edge[2]), old = Float::load(stored);
-            const Mask passed = Mask::fromBits(coverage) & compareDepth(state.depthTest, depth, old);
-            live = passed.bits();
+            live &= compareDepth(state.depthTest, depth, old).bits();
             if (leavesOut::hidden && live == 0) return false;
             if (!state.discards)
-                writeDepth(state, weights, coverage == kAllLanes, passed, depth, old, stored, tile.bounds(index));
+                writeDepth(state, weights, coverage == kAllLanes, live, depth, old, stored, tile.bounds(index));
         }
         if (state.readsEdges) {
             edge[0].store(block.edge[0]);
@@ -131,7 +128,7 @@ void testLate(const State& state, const TriangleInTile& triangle, ShadedBlock& b
     Float edge[3];
     triangle.edges.at(block.covered.x, block.covered.y, edge);
     float* const stored = tile.depth(block.index);
-    writeDepth(state, triangle.weights, false, Mask::fromBits(block.live), triangle.weights.depth(edge[1], edge[2]),
+    writeDepth(state, triangle.weights, false, block.live, triangle.weights.depth(edge[1], edge[2]),
                Float::load(stored), stored, tile.bounds(block.index));
 }
 
@@ -166,23 +163,25 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     const bool runsProgram = tile.hasColor() || state.discards;
     const std::size_t groupSize = state.discards ? 1 : kBlocksPerGroup;
     const bool isLarge = static_cast<int>(blocks.size()) >= kBlocksOfLargeTriangle * countBits(batch.visible);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const DepthBounds inTile = isLarge ? tile.wholeBounds() : DepthBounds{-infinity, infinity};
     std::array<ShadedBlock, kBlocksPerGroup> group;
     std::array<TriangleCorners, kLanes> corners;
     TriangleInTile triangle(batch, blocks.front().triangle);
     corners[static_cast<std::size_t>(triangle.lane)] = cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
     for (auto next = blocks.begin(); next != blocks.end();) {
-        std::size_t count = 0;
-        for (; next != blocks.end() && count < groupSize; ++next) {
+        ShadedBlock* free = group.data();
+        for (; next != blocks.end() && free != group.data() + groupSize; ++next) {
             if (next->triangle != triangle.lane) {
                 triangle.set(batch, next->triangle);
                 corners[static_cast<std::size_t>(triangle.lane)] =
                     cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
             }
-            if (testEarly(state, triangle, *next, isLarge, group[count], tile, counts)) ++count;
+            if (testEarly(state, triangle, *next, inTile, *free, tile, counts)) ++free;
         }
-        counts.blocks += static_cast<unsigned>(count);
-        if (!runsProgram || count == 0) continue;
-        const std::span<ShadedBlock> shaded(group.data(), count);
+        const std::span<ShadedBlock> shaded(group.data(), free);
+        counts.blocks += static_cast<unsigned>(shaded.size());
+        if (!runsProgram || shaded.empty()) continue;
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), shaded, batch, corners.data());
         if (state.discards) testLate(state, triangle, group[0], tile);
         if (!tile.hasColor()) continue;
