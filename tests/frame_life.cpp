@@ -3,6 +3,8 @@
 #include <chrono>
 #include <memory>
 
+#include "pipeline/frame_storage.h"
+#include "pipeline/instruments.h"
 #include "pipeline_fixture.h"
 
 using namespace fixture;
@@ -178,6 +180,26 @@ TEST_CASE("frame life: a frame with more triangles than it may keep runs in part
             }
             CHECK(whole.trianglesBinned > 20000);
         }
+    }
+}
+
+TEST_CASE("frame life: the pairs of a triangle and a tile that a frame keeps have a bound, whatever it draws")
+{
+    Mesh mesh;
+    const glm::vec4 one(1.0f);
+    addTriangle(mesh, {{-1, -1, 0.5f, 1}, one}, {{-1, 3, 0.5f, 1}, one}, {{3, -1, 0.5f, 1}, one});
+    constexpr std::uint32_t triangles = 30000, tiles = 6 * 4, limit = 1000;
+    for (const std::uint32_t threads : {1u, 3u}) {
+        Framebuffer target = makeTarget(96, 64);
+        Frame frame(target, {static_cast<int>(threads), 16, limit});
+        frame.clear(glm::vec4(0.0f));
+        REQUIRE(frame.draw(mesh, FromClip{}, Value{}, kDepthTested, {.instances = triangles}).has_value());
+        CHECK(frame.run().trianglesBinned == triangles * tiles);
+        std::size_t kept = 0;
+        for (const auto& chunk : frame.internals().chunks) kept += chunk.entries.capacity();
+        // A thread notices after kPrimitivesPerCount triangles that there is no room left; a vector doubles.
+        CHECK(kept <= 2 * (limit + threads * kPrimitivesPerCount * tiles));
+        CHECK(shadeAlone(frame, 10) > 0.0f);  // of the last part, which is still there
     }
 }
 

@@ -440,11 +440,7 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
             const unsigned live = static_cast<unsigned>(random.next()) & kAllLanes;
             alignas(Float) Channels color;
             for (float(&channel)[kLanes] : color) Float(0.75f).store(channel);
-            withFormat(format, [&]<Format f>() {
-                ColorWriter<f> writer;
-                writer.encode(color, live);
-                writer.store(tile.color<f>(0), Mask::fromBits(live));
-            });
+            withFormat(format, [&]<Format f>() { ColorWriter<f>().write(tile.color<f>(0), color, live); });
             tile.store(memory);
             Framebuffer cleared = makeTarget(16, 16, format);
             Tile clean(16, TargetMemory(cleared));
@@ -501,14 +497,9 @@ TEST_CASE("output merger: a colour that comes again is cleaned where other pixel
     color[0][0] = std::numeric_limits<float>::quiet_NaN();
     std::int32_t stored[4 * kLanes] = {};
     ColorWriter<Format::rgba32f> writer;
-    const auto write = [&writer](std::int32_t* words, const Channels& channels, unsigned live) {
-        const int invalid = writer.encode(channels, live);
-        writer.store(words, Mask::fromBits(live));
-        return invalid;
-    };
-    CHECK(write(stored, color, kAllLanes & ~1u) == 0);
+    CHECK(writer.write(stored, color, kAllLanes & ~1u) == 0);
     CHECK(stored[0] == 0);
-    CHECK(write(stored, color, 1u) == 1);
+    CHECK(writer.write(stored, color, 1u) == 1);
     CHECK(stored[0] == 0);  // NaN becomes 0
     CHECK(stored[1] == std::bit_cast<std::int32_t>(0.5f));
 
@@ -517,8 +508,8 @@ TEST_CASE("output merger: a colour that comes again is cleaned where other pixel
     for (float(&channel)[kLanes] : plain) Float(0.25f).store(channel);
     for (float(&channel)[kLanes] : again) Float(0.25f).store(channel);
     std::int32_t other[4 * kLanes] = {};
-    CHECK(write(stored, plain, kAllLanes) == 0);
-    CHECK(write(other, again, kAllLanes) == 0);
+    CHECK(writer.write(stored, plain, kAllLanes) == 0);
+    CHECK(writer.write(other, again, kAllLanes) == 0);
     CHECK(std::equal(stored, stored + 4 * kLanes, other));
 }
 

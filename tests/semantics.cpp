@@ -3,6 +3,9 @@
 
 #include "hlsl/intrinsics.h"
 
+#include <cstddef>
+#include <cstring>
+#include <new>
 #include <string>
 #include <type_traits>
 
@@ -299,4 +302,20 @@ TEST_CASE("semantics: a longer vector is cut off, as in HLSL")
     const TEXCOORD<0, float2> uv = float4(1.0f, 2.0f, 3.0f, 4.0f);
     CHECK(uv.x[0] == 1.0f);
     CHECK(uv.y[0] == 2.0f);
+}
+
+TEST_CASE("semantics: a field that nobody assigns is 0, whatever lay in its memory")
+{
+    // The compiler knows nothing of the memory, neither before nor after.
+    alignas(Interpolators) std::byte memory[sizeof(Interpolators)];
+    std::memset(memory, 0x41, sizeof memory);
+    asm volatile("" : : "r"(memory) : "memory");
+    Interpolators* const made = new (memory) Interpolators;
+    asm volatile("" : : "r"(memory) : "memory");
+    int notZero = 0;
+    forEachField(*made, [&]<class Field>(Field& field) {
+        for (int c = 0; c < kComponents<typename Field::Value>; ++c)
+            notZero += any(asInt(component(static_cast<typename Field::Value&>(field), c)) != 0);
+    });
+    CHECK(notZero == 0);
 }

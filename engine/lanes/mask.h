@@ -57,9 +57,8 @@ inline int count(Mask m)
 // The quads of which at least one pixel is set, whole: the pixels that must be computed for derivatives to exist.
 constexpr unsigned wholeQuads(unsigned bits)
 {
-    unsigned quads = (bits | bits >> 1) & 0x5555u;
-    quads = (quads | quads >> 2) & 0x1111u;
-    return quads * 0xfu;
+    const unsigned pairs = bits | bits >> 1;
+    return ((pairs | pairs >> 2) & 0x1111u) * 0xfu;
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "leave_out.h"
 #include "pipeline/output_merger.h"
@@ -77,68 +78,32 @@ struct TriangleInTile
                 sampleEdges[s].set(batch, triangle, batch.samples->position[static_cast<std::size_t>(s)]);
         }
     }
-    void edgesAt(int sample, int x, int y, Float (&edge)[3]) const
-    {
-        (severalSamples ? sampleEdges[sample] : edges).at(x, y, edge);
-    }
 };
-
-// How many samples there are, where one of a block's lies in the tile's planes, and in which lanes it counts: known
-// while compiling where there is one.
-template <bool several>
-int sampleCount(const Tile& tile)
-{
-    return several ? tile.samples().count : 1;
-}
-template <bool several>
-int placeOf(const Tile& tile, int block, int sample)
-{
-    return several ? tile.sampleOf(block, sample) : block;
-}
-template <bool several>
-unsigned liveLanes(const ShadedBlock& block, int sample)
-{
-    return several ? block.liveSamples[static_cast<std::size_t>(sample)] : block.live;
-}
 
 // Writes the depth of a block's live pixels.
 template <class State>
-void writeDepth(const State& state, const TriangleWeights& triangle, bool isWhole, Mask live, Float depth, Float old,
-                float* stored, DepthBounds& bounds)
+void writeDepth(const State& state, const TriangleWeights& triangle, bool isWhole, unsigned live, Float depth,
+                Float old, float* stored, DepthBounds& bounds)
 {
-    if (!state.depthWrite || none(live)) return;
-    select(live, depth, old).store(stored);
+    if (!state.depthWrite || live == 0) return;
+    select(Mask::fromBits(live), depth, old).store(stored);
     updateBounds(state.depthTest, triangle.nearest, triangle.farthest, isWhole, bounds);
 }
 
+// Not in a loop, in which g++ 12 would keep the values in memory.
 void storeEdges(const Float (&edge)[3], float (&to)[3][kLanes])
 {
-    for (int k = 0; k < 3; ++k) edge[k].store(to[k]);
+    edge[0].store(to[0]);
+    edge[1].store(to[1]);
+    edge[2].store(to[2]);
 }
 
-// Moves pixels whose centre is not in the triangle to the first sample that is.
-template <bool several>
-void findCentroids(const TriangleInTile<several>& triangle, const SampleCoverage& samples, unsigned inside,
-                   const CoveredBlock& covered, int count, ShadedBlock& block)
-{
-    for (int s = 0; s < count; ++s) {
-        const unsigned lanes = samples[static_cast<std::size_t>(s)] & ~inside;
-        if (lanes == 0) continue;
-        Float edge[3];
-        triangle.edgesAt(s, covered.x, covered.y, edge);
-        for (int k = 0; k < 3; ++k)
-            select(Mask::fromBits(lanes), edge[k], Float::load(block.centroid[k])).store(block.centroid[k]);
-        inside |= lanes;
-    }
-}
-
-// Before the program runs: which samples pass the depth test. Their depth is written here, too, unless the program may
-// throw them away afterwards. Returns whether there is anything to shade. `samples` where a pixel has several.
+// Before the program runs: which pixels pass the depth test. `inTile`: bounds of all blocks together. Their depth is
+// written here, too, unless the program may throw them away afterwards. Returns whether there is anything to shade.
 template <class State>
-bool testEarly(const State& state, const TriangleInTile<State::severalSamples>& triangle, const CoveredBlock& covered,
-               const SampleCoverage* samples, bool isLarge, ShadedBlock& block, Tile& tile, Counts& counts)
+bool testEarly(const State& state, const TriangleInTile<false>& triangle, const CoveredBlock& covered,
+               const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
 {
-    constexpr bool several = State::severalSamples;
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
     const unsigned coverage = covered.coverage;
@@ -146,34 +111,22 @@ bool testEarly(const State& state, const TriangleInTile<State::severalSamples>& 
     const auto hidden = [&](const DepthBounds& bounds) {
         return isHidden(state.depthTest, weights.nearest, weights.farthest, bounds);
     };
-    if (leavesOut::hidden && state.usesDepth) {
-        if (isLarge && hidden(tile.wholeBounds())) return false;
-        if (hidden(tile.bounds(index))) return false;
-    }
-    Float centre[3];
-    if (several || state.usesDepth || state.readsEdges) triangle.edges.at(x, y, centre);
-    unsigned live = several ? 0 : coverage, everywhere = coverage;
-    for (int s = 0; s < sampleCount<several>(tile) && (several || state.usesDepth); ++s) {
-        unsigned lanes = several ? (*samples)[static_cast<std::size_t>(s)] : coverage;
-        everywhere &= lanes;
+    if (leavesOut::hidden && state.usesDepth && (hidden(inTile) || hidden(tile.bounds(index)))) return false;
+    unsigned live = coverage;
+    if (state.usesDepth || state.readsEdges) {
+        Float edge[3];
+        triangle.edges.at(x, y, edge);
         if (state.usesDepth) {
-            Float edge[3] = {centre[0], centre[1], centre[2]};
-            if constexpr (several) triangle.edgesAt(s, x, y, edge);
-            float* const stored = tile.depth(placeOf<several>(tile, index, s));
+            float* const stored = tile.depth(index);
             const Float depth = weights.depth(edge[1], edge[2]), old = Float::load(stored);
-            const Mask passed = Mask::fromBits(lanes) & compareDepth(state.depthTest, depth, old);
-            const bool isWhole = !several && coverage == kAllLanes;
-            if (!state.discards) writeDepth(state, weights, isWhole, passed, depth, old, stored, tile.bounds(index));
-            lanes = passed.bits();
+            live &= compareDepth(state.depthTest, depth, old).bits();
+            if (leavesOut::hidden && live == 0) return false;
+            if (!state.discards)
+                writeDepth(state, weights, coverage == kAllLanes, live, depth, old, stored, tile.bounds(index));
         }
-        if constexpr (several) block.liveSamples[static_cast<std::size_t>(s)] = static_cast<std::uint16_t>(lanes);
-        live = several ? live | lanes : lanes;
+        if (state.readsEdges) storeEdges(edge, block.edge);
+        if (state.readsCentroids) storeEdges(edge, block.centroid);
     }
-    if (leavesOut::hidden && live == 0) return false;
-    if (several && everywhere == kAllLanes && state.depthWrite && !state.discards)
-        updateBounds(state.depthTest, weights.nearest, weights.farthest, true, tile.bounds(index));
-    if (state.readsEdges) storeEdges(centre, block.edge);
-    if (state.readsCentroids) storeEdges(centre, block.centroid);
     const unsigned quads = wholeQuads(leavesOut::hidden ? live : coverage);
     counts.quadPixels += static_cast<unsigned>(countBits(quads));
     counts.pixels += static_cast<unsigned>(countBits(live));
@@ -181,67 +134,133 @@ bool testEarly(const State& state, const TriangleInTile<State::severalSamples>& 
     block.quads = quads;
     block.index = index;
     block.covered = covered;
-    if constexpr (several) {
-        const Mask inside = (centre[0] >= 0.0f) & (centre[1] >= 0.0f) & (centre[2] >= 0.0f);
-        block.covered.coverage = static_cast<std::uint16_t>(inside.bits());
-        if (state.readsCentroids)
-            findCentroids(triangle, *samples, inside.bits(), covered, tile.samples().count, block);
-    }
     return true;
 }
 
-// The lanes whose alpha is enough for a sample: the first one takes the least, and each one after it more.
-unsigned keptByAlpha(const ShadedBlock& block, int sample, int count)
-{
-    const float least = (static_cast<float>(sample) + 0.5f) / static_cast<float>(count);
-    return (Float::load(block.color[3]) >= least).bits();
-}
-
-// What a discarding program has left of a block, or its alpha: its depth is written now.
+// The same where a pixel has several samples, each with a depth of its own.
 template <class State>
-void testLate(const State& state, const Draw& draw, const TriangleInTile<State::severalSamples>& triangle,
-              ShadedBlock& block, Tile& tile)
+bool testEarly(const State& state, const TriangleInTile<true>& triangle, const CoveredBlock& covered,
+               const SampleCoverage& samples, const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
 {
-    constexpr bool several = State::severalSamples;
-    const int count = sampleCount<several>(tile);
-    unsigned live = 0;
-    for (int s = 0; s < count; ++s) {
-        unsigned lanes = liveLanes<several>(block, s);
-        if (draw.programs->discards) lanes &= ~block.discarded;
-        if (draw.state.alphaToCoverage) lanes &= keptByAlpha(block, s, count);
-        if constexpr (several) block.liveSamples[static_cast<std::size_t>(s)] = static_cast<std::uint16_t>(lanes);
+    const TriangleWeights& weights = triangle.weights;
+    const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
+    DepthBounds& bounds = tile.bounds(index);
+    counts.covered += static_cast<unsigned>(countBits(covered.coverage));
+    const auto hidden = [&](const DepthBounds& b) {
+        return isHidden(state.depthTest, weights.nearest, weights.farthest, b);
+    };
+    if (leavesOut::hidden && state.usesDepth && (hidden(inTile) || hidden(bounds))) return false;
+    Float edge[3];
+    triangle.edges.at(x, y, edge);
+    storeEdges(edge, block.edge);
+    storeEdges(edge, block.centroid);
+    const unsigned inside = ((edge[0] >= 0.0f) & (edge[1] >= 0.0f) & (edge[2] >= 0.0f)).bits();
+    unsigned live = 0, everywhere = kAllLanes, placed = inside;
+    for (int s = 0; s < tile.samples().count; ++s) {
+        unsigned lanes = samples[static_cast<std::size_t>(s)];
+        everywhere &= lanes;
+        triangle.sampleEdges[s].at(x, y, edge);
+        // The centroid of a pixel whose centre is not in the triangle is its first sample that is.
+        const Mask first = Mask::fromBits(lanes & ~placed);
+        for (int k = 0; k < 3; ++k) select(first, edge[k], Float::load(block.centroid[k])).store(block.centroid[k]);
+        placed |= lanes;
+        if (state.usesDepth) {
+            float* const stored = tile.depth(tile.sampleOf(index, s));
+            const Float depth = weights.depth(edge[1], edge[2]), old = Float::load(stored);
+            lanes &= compareDepth(state.depthTest, depth, old).bits();
+            if (!state.discards) writeDepth(state, weights, false, lanes, depth, old, stored, bounds);
+        }
+        block.liveSamples[static_cast<std::size_t>(s)] = static_cast<std::uint16_t>(lanes);
         live |= lanes;
-        if (!state.usesDepth) continue;
-        Float edge[3];
-        triangle.edgesAt(s, block.covered.x, block.covered.y, edge);
-        float* const stored = tile.depth(placeOf<several>(tile, block.index, s));
-        writeDepth(state, triangle.weights, false, Mask::fromBits(lanes), triangle.weights.depth(edge[1], edge[2]),
-                   Float::load(stored), stored, tile.bounds(block.index));
     }
+    if (leavesOut::hidden && live == 0) return false;
+    if (everywhere == kAllLanes && state.depthWrite && !state.discards)
+        updateBounds(state.depthTest, weights.nearest, weights.farthest, true, bounds);
+    const unsigned quads = wholeQuads(leavesOut::hidden ? live : covered.coverage);
+    counts.quadPixels += static_cast<unsigned>(countBits(quads));
+    counts.pixels += static_cast<unsigned>(countBits(live));
     block.live = live;
+    block.quads = quads;
+    block.index = index;
+    block.covered = covered;
+    block.covered.coverage = static_cast<std::uint16_t>(inside);
+    return true;
 }
 
-template <Format format, bool several>
+// Which of these lanes a discarding program has left, and whose alpha is enough for a sample: the first one takes the
+// least, and each one after it more.
+unsigned keptLanes(const Draw& draw, const ShadedBlock& block, unsigned lanes, int sample, int count)
+{
+    if (draw.programs->discards) lanes &= ~block.discarded;
+    if (!draw.state.alphaToCoverage) return lanes;
+    const float least = (static_cast<float>(sample) + 0.5f) / static_cast<float>(count);
+    return lanes & (Float::load(block.color[3]) >= least).bits();
+}
+
+// After the program: the depth of what is left is written now.
+template <class State>
+void writeDepthLate(const State& state, const TriangleWeights& weights, const TriangleEdges& edges,
+                    const ShadedBlock& block, unsigned lanes, float* stored, Tile& tile)
+{
+    Float edge[3];
+    edges.at(block.covered.x, block.covered.y, edge);
+    writeDepth(state, weights, false, lanes, weights.depth(edge[1], edge[2]), Float::load(stored), stored,
+               tile.bounds(block.index));
+}
+template <class State>
+void testLate(const State& state, const Draw& draw, const TriangleInTile<false>& triangle, ShadedBlock& block,
+              Tile& tile)
+{
+    block.live = keptLanes(draw, block, block.live, 0, 1);
+    if (state.usesDepth)
+        writeDepthLate(state, triangle.weights, triangle.edges, block, block.live, tile.depth(block.index), tile);
+}
+template <class State>
+void testLate(const State& state, const Draw& draw, const TriangleInTile<true>& triangle, ShadedBlock& block,
+              Tile& tile)
+{
+    block.live = 0;
+    for (int s = 0; s < tile.samples().count; ++s) {
+        std::uint16_t& lanes = block.liveSamples[static_cast<std::size_t>(s)];
+        lanes = static_cast<std::uint16_t>(keptLanes(draw, block, lanes, s, tile.samples().count));
+        block.live |= lanes;
+        if (state.usesDepth) {
+            writeDepthLate(state, triangle.weights, triangle.sampleEdges[s], block, lanes,
+                           tile.depth(tile.sampleOf(block.index, s)), tile);
+        }
+    }
+}
+
+// Calls merge(words, live lanes) for each sample of a block.
+template <Format format, bool severalSamples, class Merge>
+void forSamples(Tile& tile, const ShadedBlock& block, const Merge& merge)
+{
+    if constexpr (severalSamples) {
+        for (int s = 0; s < tile.samples().count; ++s)
+            merge(tile.color<format>(tile.sampleOf(block.index, s)), block.liveSamples[static_cast<std::size_t>(s)]);
+    } else {
+        merge(tile.color<format>(block.index), block.live);
+    }
+}
+
+template <Format format, bool severalSamples>
 void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, Counts& counts)
 {
-    ColorWriter<format> writer;
+    if (blend == Blend::off) {
+        ColorWriter<format> writer;
+        for (const ShadedBlock& block : blocks) {
+            counts.invalid += static_cast<unsigned>(writer.set(block.color, block.live));
+            forSamples<format, severalSamples>(tile, block,
+                                               [&](std::int32_t* words, unsigned live) { writer.store(words, live); });
+        }
+        return;
+    }
     for (const ShadedBlock& block : blocks) {
-        float4 color;
-        if (blend == Blend::off) {
-            counts.invalid += static_cast<unsigned>(writer.encode(block.color, block.live));
-        } else {
-            color = loadChannels(block.color);
-            counts.invalid += static_cast<unsigned>(sanitizeColor(color, Mask::fromBits(block.live)));
-        }
-        for (int s = 0; s < sampleCount<several>(tile); ++s) {
-            const Mask live = Mask::fromBits(liveLanes<several>(block, s));
-            std::int32_t* const words = tile.color<format>(placeOf<several>(tile, block.index, s));
-            if (blend == Blend::off) {
-                writer.store(words, live);
-            } else {
-                blendOnto<format>(words, blend, color, live);
-            }
-        }
+        float4 color = loadChannels(block.color);
+        counts.invalid += static_cast<unsigned>(sanitizeColor(color, Mask::fromBits(block.live)));
+        forSamples<format, severalSamples>(tile, block, [&](std::int32_t* words, unsigned live) {
+            blendInto<format>(words, blend, color, Mask::fromBits(live));
+        });
     }
 }
 
@@ -254,31 +273,39 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
 
 template <class State>
 void shadeBlocksIn(const State& state, const Draw& draw, std::span<const CoveredBlock> blocks,
-                   const SampleCoverage* samples, const TriangleBatch& batch, const TriangleChunk& chunk, Tile& tile,
-                   Counts& counts)
+                   [[maybe_unused]] const SampleCoverage* samples, const TriangleBatch& batch,
+                   const TriangleChunk& chunk, Tile& tile, Counts& counts)
 {
     constexpr bool severalSamples = State::severalSamples;
     const bool runsProgram = tile.hasColor() || state.discards;
     const std::size_t groupSize = state.discards ? 1 : kBlocksPerGroup;
     const bool isLarge = static_cast<int>(blocks.size()) >= kBlocksOfLargeTriangle * countBits(batch.visible);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const DepthBounds inTile = isLarge ? tile.wholeBounds() : DepthBounds{-infinity, infinity};
     std::array<ShadedBlock, kBlocksPerGroup> group;
     std::array<TriangleCorners, kLanes> corners;
     TriangleInTile<severalSamples> triangle(batch, blocks.front().triangle);
     corners[static_cast<std::size_t>(triangle.lane)] = cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
     for (auto next = blocks.begin(); next != blocks.end();) {
-        std::size_t count = 0;
-        for (; next != blocks.end() && count < groupSize; ++next) {
+        ShadedBlock* free = group.data();
+        for (; next != blocks.end() && free != group.data() + groupSize; ++next) {
             if (next->triangle != triangle.lane) {
                 triangle.set(batch, next->triangle);
                 corners[static_cast<std::size_t>(triangle.lane)] =
                     cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
             }
-            const SampleCoverage* of = severalSamples ? samples + (next - blocks.begin()) : nullptr;
-            if (testEarly(state, triangle, *next, of, isLarge, group[count], tile, counts)) ++count;
+            const auto test = [&](const auto&... sampled) {
+                return testEarly(state, triangle, *next, sampled..., inTile, *free, tile, counts);
+            };
+            if constexpr (severalSamples) {
+                free += test(samples[next - blocks.begin()]) ? 1 : 0;
+            } else {
+                if (test()) ++free;
+            }
         }
-        counts.blocks += static_cast<unsigned>(count);
-        if (!runsProgram || count == 0) continue;
-        const std::span<ShadedBlock> shaded(group.data(), count);
+        const std::span<ShadedBlock> shaded(group.data(), free);
+        counts.blocks += static_cast<unsigned>(shaded.size());
+        if (!runsProgram || shaded.empty()) continue;
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), shaded, batch, corners.data());
         if (state.discards) testLate(state, draw, triangle, group[0], tile);
         if (!tile.hasColor()) continue;
@@ -291,6 +318,16 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     if (isLarge) tile.refreshWholeBounds();
 }
 
+// By itself, so that the usual ways below have the registers.
+[[gnu::noinline, gnu::flatten]] Counts shadeSamples(const Draw& draw, std::span<const CoveredBlock> blocks,
+                                                    const SampleCoverage* samples, const TriangleBatch& batch,
+                                                    const TriangleChunk& chunk, Tile& tile)
+{
+    Counts counts;
+    shadeBlocksIn(AnyState<true>(draw, tile), draw, blocks, samples, batch, chunk, tile, counts);
+    return counts;
+}
+
 }  // namespace
 
 [[gnu::flatten]] void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const SampleCoverage* samples,
@@ -300,7 +337,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     Counts counts;
     const AnyState<false> state(draw, tile);
     if (tile.samples().isMultiple()) {
-        shadeBlocksIn(AnyState<true>(draw, tile), draw, blocks, samples, batch, chunk, tile, counts);
+        counts = shadeSamples(draw, blocks, samples, batch, chunk, tile);
     } else if (state.isUsual() && state.readsEdges) {
         shadeBlocksIn(UsualState<true>(), draw, blocks, nullptr, batch, chunk, tile, counts);
     } else if (state.isUsual()) {

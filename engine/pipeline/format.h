@@ -9,15 +9,20 @@
 
 namespace relief::inline RELIEF_WIDTH {
 
-// FLOAT -> UNORM8: NaN to 0, clamp, scale, round half up (D3D 11.3, 3.2.3.6).
+// FLOAT -> UNORM8: NaN to 0, clamp, scale, round half up (D3D 11.3, 3.2.3.6). The last two, of a number in 0 ... 1:
+inline Int codeOf(Float saturated)
+{
+    return Int(native::truncateToInt((saturated * 255.0f + 0.5f).value));
+}
 inline Int toUnorm8(Float c)
 {
-    return Int(native::truncateToInt((saturate(c) * 255.0f + 0.5f).value));
+    return codeOf(saturate(c));
 }
 
+// Of numbers in 0 ... 1.
 inline Int packRgba8(const float4& c)
 {
-    return toUnorm8(c.x) | toUnorm8(c.y) << 8 | toUnorm8(c.z) << 16 | toUnorm8(c.w) << 24;
+    return codeOf(c.x) | codeOf(c.y) << 8 | codeOf(c.z) << 16 | codeOf(c.w) << 24;
 }
 
 inline float4 unpackRgba8(Int packed)
@@ -26,9 +31,10 @@ inline float4 unpackRgba8(Int packed)
     return {channel(0), channel(8), channel(16), channel(24)};
 }
 
+// Numbers in 0 ... 1.
 inline float4 encodeSrgb(const float4& c)
 {
-    return {linearToSrgb(c.x), linearToSrgb(c.y), linearToSrgb(c.z), c.w};
+    return {linearToSrgb(c.x), linearToSrgb(c.y), linearToSrgb(c.z), saturate(c.w)};
 }
 
 // Decodes by the exact table of 256 values; only blending onto an sRGB target needs it.
@@ -68,7 +74,7 @@ inline Float fromHalf(Int half)
 template <Format format>
 std::array<Int, static_cast<std::size_t>(wordsPerPixel(format))> encodeColor(const float4& color)
 {
-    if constexpr (format == Format::rgba8) return {packRgba8(color)};
+    if constexpr (format == Format::rgba8) return {packRgba8(saturate(color))};
     if constexpr (format == Format::rgba8Srgb) return {packRgba8(encodeSrgb(color))};
     if constexpr (format == Format::rgba16f)
         return {toHalf(color.x) | toHalf(color.y) << 16, toHalf(color.z) | toHalf(color.w) << 16};

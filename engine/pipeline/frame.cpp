@@ -203,15 +203,14 @@ Clear Frame::Storage::clearOf(const TargetMemory& memory) const
     return all;
 }
 
-// From the first chunk on that has something left; the others are done with.
+// From the first chunk on that has something left; the others are done with, and give their memory back.
 void Frame::Storage::startNextPart(Part& part)
 {
     if (part.isLast) return;
     for (; part.first < part.last; ++part.first) {
         Chunk& chunk = chunks[part.first];
         binned -= static_cast<std::uint32_t>(chunk.entries.size());
-        chunk.clear();
-        chunk.isReady = false;
+        chunk = {{}, std::move(chunk.rest)};
         if (!chunk.rest.empty()) break;
     }
     part.last = part.first;

@@ -32,6 +32,7 @@ std::vector<Sample> samplesOf(const Frame::Storage& s)
     std::vector<Sample> samples;
     std::vector<CoveredBlock> covered(s.coveredBlocks());
     for (std::size_t c = 0; c < s.usedChunks; ++c) {
+        if (!s.chunks[c].isReady) continue;  // of a part before the last one
         for (int tile = 0; tile < s.grid.count(); ++tile) {
             const TriangleChunk& chunk = s.chunks[c];
             const std::uint32_t first = chunk.binStart[static_cast<std::size_t>(tile)];

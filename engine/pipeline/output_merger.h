@@ -77,34 +77,39 @@ inline float4 loadChannels(const Channels& c)
 }
 
 // A colour's channels in memory: NaN becomes 0, infinities the largest finite number. Returns how many live pixels had
-// one.
-[[gnu::noinline]] inline int replaceInvalid(Channels& channels, Mask live)
+// one. A function of its own for what is rare, so that all other colours stay in registers.
+[[gnu::noinline]] inline int replaceInvalid(const Channels& from, Channels& to, Mask live)
 {
     const float largest = std::numeric_limits<float>::max();
     Mask finite = true;
-    for (float(&channel)[kLanes] : channels) {
-        const Float c = Float::load(channel);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Float c = Float::load(from[i]);
         finite &= abs(c) <= largest;
-        select(isnan(c), Float(0.0f), clamp(c, -largest, largest)).store(channel);
+        select(isnan(c), Float(0.0f), clamp(c, -largest, largest)).store(to[i]);
     }
     return count(live & !finite);
 }
 
-// No NaN and no infinity enters a target: they are replaced. Returns how many live pixels had one. The rare case is in
-// a function of its own, so that the colour of all others stays in registers.
-inline int sanitizeColor(float4& color, Mask live)
+// Where a colour may have a NaN or an infinity: all exponent bits are set in these, and in nothing that is made of
+// numbers below 2.
+inline Mask mayBeInvalid(const float4& color)
 {
-    // All exponent bits are set in NaN and infinities, and in nothing that is made of numbers below 2.
     constexpr std::int32_t exponent = 0x7f800000;
     const Int together = asInt(color.x) | asInt(color.y) | asInt(color.z) | asInt(color.w);
-    if (none(live & ((together & exponent) == exponent))) [[likely]]
+    return (together & exponent) == exponent;
+}
+
+// No NaN and no infinity enters a target: they are replaced. Returns how many live pixels had one.
+inline int sanitizeColor(float4& color, Mask live)
+{
+    if (none(live & mayBeInvalid(color))) [[likely]]
         return 0;
     alignas(Float) Channels channels;
     color.x.store(channels[0]);
     color.y.store(channels[1]);
     color.z.store(channels[2]);
     color.w.store(channels[3]);
-    const int invalid = replaceInvalid(channels, live);
+    const int invalid = replaceInvalid(channels, channels, live);
     color = loadChannels(channels);
     return invalid;
 }
@@ -134,30 +139,44 @@ template <Format format>
 class ColorWriter
 {
 public:
-    // The words of a block's colours, linear, which stay where they are until the next call. Returns how many of the
-    // live pixels, a bit each, had a NaN or an infinity.
+    // A block's live pixels, a bit each, linear; `color` stays where it is until the next call. Returns how many of
+    // them had a NaN or an infinity.
+    int write(std::int32_t* words, const Channels& color, unsigned live)
+    {
+        const int invalid = set(color, live);
+        store(words, live);
+        return invalid;
+    }
+
+    // The two steps of it, for a colour that goes to several samples.
+    int set(const Channels& color, unsigned live) { return isSame(color) ? 0 : encode(color, live); }
+    void store(std::int32_t* words, unsigned live) const
+    {
+        encoded.store(words, Mask::fromBits(live), StoredColor<format>::load(words));
+    }
+
+private:
+    bool isSame(const Channels& color) const
+    {
+        if (last == nullptr) return false;
+        const auto same = [&](int i) { return asInt(Float::load(color[i])) == asInt(Float::load((*last)[i])); };
+        return all(same(0) & same(1) & same(2) & same(3));
+    }
+
+    // In all lanes: other pixels may be live in the next block.
     int encode(const Channels& channels, unsigned live)
     {
         float4 color = loadChannels(channels);
-        if (last != nullptr && isSame(color, loadChannels(*last))) return 0;
-        // In all lanes: other pixels may be live in the next block.
-        const bool isFinite = sanitizeColor(color, true) == 0;
+        int invalid = 0;
+        last = &channels;
+        if (any(mayBeInvalid(color))) [[unlikely]] {
+            alignas(Float) Channels replaced;
+            invalid = replaceInvalid(channels, replaced, Mask::fromBits(live));
+            color = loadChannels(replaced);
+            last = nullptr;
+        }
         encoded.words = encodeColor<format>(color);
-        last = isFinite ? &channels : nullptr;
-        if (isFinite) [[likely]]
-            return 0;
-        color = loadChannels(channels);
-        return sanitizeColor(color, Mask::fromBits(live));
-    }
-
-    // Writes them where a block is live.
-    void store(std::int32_t* words, Mask live) const { encoded.store(words, live, StoredColor<format>::load(words)); }
-
-private:
-    static bool isSame(const float4& a, const float4& b)
-    {
-        const auto changed = [](Float x, Float y) { return asInt(x) ^ asInt(y); };
-        return none((changed(a.x, b.x) | changed(a.y, b.y) | changed(a.z, b.z) | changed(a.w, b.w)) != 0);
+        return invalid;
     }
 
     const Channels* last = nullptr;
@@ -166,7 +185,7 @@ private:
 
 // With it: a block's live pixels, linear and finite.
 template <Format format>
-void blendOnto(std::int32_t* words, Blend blend, float4 color, Mask live)
+void blendInto(std::int32_t* words, Blend blend, float4 color, Mask live)
 {
     const auto old = StoredColor<format>::load(words);
     color = blendColors(blend, isUnorm(format) ? saturate(color) : color, decodeColor<format>(old.words));

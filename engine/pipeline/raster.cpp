@@ -100,7 +100,7 @@ inline CoveredBlock* coverBlocks(int triangle, const Rectangle& pixels, const Ro
             } else {
                 coverage &= insideOf<edges>(value);
             }
-            *out = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(coverage),
+            *out = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(coverage), static_cast<std::uint16_t>(y),
                     static_cast<std::uint16_t>(triangle)};
             out += coverage != 0 ? 1 : 0;
             // Most small triangles end here: nothing is worked out for blocks that do not follow.

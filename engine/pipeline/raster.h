@@ -11,8 +11,10 @@ namespace relief::inline RELIEF_WIDTH {
 // A block with at least one covered pixel, or sample.
 struct CoveredBlock
 {
-    std::uint16_t x, y;      // of its upper left pixel, in the target
+    // In this order the compiler puts together beforehand what a row of blocks has in common.
+    std::uint16_t x;         // of its upper left pixel, in the target
     std::uint16_t coverage;  // a bit per lane: of any of its samples
+    std::uint16_t y;
     std::uint16_t triangle;  // its place in the batch
 };
 

@@ -26,10 +26,10 @@ template <class Visit>
 void forEachBlock(int width, int height, int blocksWide, std::size_t stride, const Visit& visit)
 {
     for (int y = 0; y < height; y += kBlockHeight) {
+        int block = y / kBlockHeight * blocksWide;
         for (int x = 0; x < width; x += kBlockWidth) {
-            visit(y / kBlockHeight * blocksWide + x / kBlockWidth,
-                  static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x), std::min(kBlockWidth, width - x),
-                  std::min(kBlockHeight, height - y));
+            visit(block++, static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x),
+                  std::min(kBlockWidth, width - x), std::min(kBlockHeight, height - y));
         }
     }
 }
