@@ -360,7 +360,7 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
             __builtin_prefetch(&chunk.triangles[chunk.sorted[i]]);
         const Rectangle clip = intersect(tilePixels(tileIndex), draw.geometry.bounds);
         TriangleBatch batch;
-        batch.set({triangles, count}, clip, worker.tile->samples());
+        batch.set({triangles, count}, clip, worker.tile->samples(), draw.state.depthBias);
         CoveredBlock* const blocks = worker.blocks.data();
         const CoveredBlock* const end = rasterise(batch, clip, blocks, worker.samples.data());
         if (end != blocks)

@@ -1,5 +1,6 @@
 // Recording a draw: what VertexData asks for is looked up among the mesh's streams, once.
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -57,6 +58,10 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
     const std::string name = "draw of mesh '" + mesh.name + "': ";
     if (state.lineWidth != 1 && state.lineWidth != 2) {
         return fail(name + "lines are 1 or 2 pixels wide, not " + std::to_string(state.lineWidth));
+    }
+    const DepthBias& bias = state.depthBias;
+    if (!std::isfinite(bias.constant) || !std::isfinite(bias.slope) || !std::isfinite(bias.limit)) {
+        return fail(name + "a depth bias must be made of finite numbers");
     }
     const std::size_t indices = mesh.indices.size();
     const std::size_t rest = indices - std::min<std::size_t>(part.first, indices);

@@ -38,6 +38,14 @@ enum class Primitive
     lines
 };
 
+// Moves a triangle's depth away, so that a surface does not hide behind its own shadow map: `constant` steps of a float
+// as large as the triangle's largest depth, and `slope` times what depth changes by from a pixel to the next one, to the
+// right or down, whichever is more; both together within +-`limit`, where that is not 0 (D3D 11.3, 15.10).
+struct DepthBias
+{
+    float constant = 0.0f, slope = 0.0f, limit = 0.0f;
+};
+
 struct RenderState
 {
     Compare depthTest = Compare::less;  // `greater` with a depth cleared to 0 is reversed depth
@@ -48,6 +56,7 @@ struct RenderState
     bool alphaToCoverage = false;  // of n samples the first alpha * n, rounded, are drawn; one: from alpha 0.5 on
     Primitive primitive = Primitive::triangles;
     int lineWidth = 1;  // pixels: 1 or 2
+    DepthBias depthBias = {};
 };
 
 // Which indices of a mesh a draw takes, and how often.

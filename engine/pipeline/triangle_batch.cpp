@@ -74,6 +74,22 @@ void setInvW(TriangleBatch& batch, const Float (&invW)[3])
     for (int k = 0; k < 3; ++k) batch.invW[k] = higher(invW[k] * batch.scale, least);
 }
 
+// DepthBias in every lane, for depths z.
+Float biasOf(const TriangleBatch& batch, const Corners& c, const Float (&z)[3], const DepthBias& bias)
+{
+    // One step of a float is 2^-23 of the power of two below it.
+    const Float largest = higher(higher(abs(z[0]), abs(z[1])), abs(z[2]));
+    const Float step = asFloat(asInt(largest) & 0x7f800000) * 0x1p-23f;
+    // Differences of corners are exact; dz/dx = 256 ((y2 - y0) dz1 - (y1 - y0) dz2) / (2 area).
+    const auto side = [](const Int(&v)[3], int k) { return Float(v[k] - v[0]); };
+    const Float dz1 = z[1] - z[0], dz2 = z[2] - z[0], perPixel = static_cast<float>(kSubpixels) * batch.inverseArea;
+    const Float across = abs(side(c.y, 2) * dz1 - side(c.y, 1) * dz2),
+                down = abs(side(c.x, 1) * dz2 - side(c.x, 2) * dz1);
+    const Float sum = bias.constant * step + bias.slope * (higher(across, down) * perPixel);
+    const float limit = bias.limit == 0.0f ? 1e30f : bias.limit < 0.0f ? -bias.limit : bias.limit;  // finite anyhow
+    return clamp(sum, -limit, limit);
+}
+
 void setDepth(TriangleBatch& batch, const Float (&z)[3])
 {
     const auto inRange = [](Float depth) { return lower(higher(depth, 0.0f), 1.0f); };
@@ -87,7 +103,7 @@ void setDepth(TriangleBatch& batch, const Float (&z)[3])
 }  // namespace
 
 void TriangleBatch::set(std::span<const Triangle* const> triangles, const Rectangle& clip,
-                        const SamplePattern& samplePattern)
+                        const SamplePattern& samplePattern, const DepthBias& bias)
 {
     samples = &samplePattern;
     // The 12 words before `vertex`, from one triangle after the other to one word after the other. Lanes that are not
@@ -102,7 +118,7 @@ void TriangleBatch::set(std::span<const Triangle* const> triangles, const Rectan
     native::IntVector word[12];
     for (int part = 0; part < 3; ++part) native::loadTransposed(address[part], word + 4 * part);
     const Corners corners = {{Int(word[0]), Int(word[1]), Int(word[2])}, {Int(word[3]), Int(word[4]), Int(word[5])}};
-    const Float z[3] = {asFloat(Int(word[6])), asFloat(Int(word[7])), asFloat(Int(word[8]))};
+    Float z[3] = {asFloat(Int(word[6])), asFloat(Int(word[7])), asFloat(Int(word[8]))};
     const Float w[3] = {asFloat(Int(word[9])), asFloat(Int(word[10])), asFloat(Int(word[11]))};
 
     setBounds(*this, corners, clip);
@@ -110,6 +126,10 @@ void TriangleBatch::set(std::span<const Triangle* const> triangles, const Rectan
     setEdges(*this, corners);
     setArea(*this, corners);
     setInvW(*this, w);
+    if (bias.constant != 0.0f || bias.slope != 0.0f) {
+        const Float by = biasOf(*this, corners, z, bias);
+        for (Float& depth : z) depth = depth + by;
+    }
     setDepth(*this, z);
 }
 

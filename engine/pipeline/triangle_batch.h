@@ -15,7 +15,7 @@ struct TriangleBatch
 {
     // Sets up `triangles` (1 ... kLanes) for the pixels of `clip` and their samples.
     void set(std::span<const Triangle* const> triangles, const Rectangle& clip,
-             const SamplePattern& samplePattern = kOneSample);
+             const SamplePattern& samplePattern = kOneSample, const DepthBias& bias = {});
 
     const SamplePattern* samples;
     const Triangle* triangle[kLanes];
