@@ -246,20 +246,25 @@ void forSamples(Tile& tile, const ShadedBlock& block, const Merge& merge)
 template <Format format, bool severalSamples>
 void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, Counts& counts)
 {
+    const auto forEach = [&](const auto& merge) {
+        for (const ShadedBlock& block : blocks) counts.invalid += static_cast<unsigned>(merge(block));
+    };
     if (blend == Blend::off) {
         ColorWriter<format> writer;
-        for (const ShadedBlock& block : blocks) {
-            counts.invalid += static_cast<unsigned>(writer.set(block.color, block.live));
+        forEach([&](const ShadedBlock& block) {
+            const int invalid = writer.set(block.color, block.live);
             forSamples<format, severalSamples>(tile, block,
                                                [&](std::int32_t* words, unsigned live) { writer.store(words, live); });
-        }
-        return;
-    }
-    for (const ShadedBlock& block : blocks) {
-        float4 color = loadChannels(block.color);
-        counts.invalid += static_cast<unsigned>(sanitizeColor(color, Mask::fromBits(block.live)));
-        forSamples<format, severalSamples>(tile, block, [&](std::int32_t* words, unsigned live) {
-            blendInto<format>(words, blend, color, Mask::fromBits(live));
+            return invalid;
+        });
+    } else {
+        forEach([&](const ShadedBlock& block) {
+            float4 color = loadChannels(block.color);
+            const int invalid = sanitizeColor(color, Mask::fromBits(block.live));
+            forSamples<format, severalSamples>(tile, block, [&](std::int32_t* words, unsigned live) {
+                blendInto<format>(words, blend, color, Mask::fromBits(live));
+            });
+            return invalid;
         });
     }
 }

@@ -191,17 +191,18 @@ Experiment supersampling(Effort effort)
         std::string name;
         Smooth how;
     };
-    for (const auto& [name, how] : {Named{"1 sample", {1, 1}},
-                                    {"2 samples", {2, 1}},
-                                    {"4 samples", {4, 1}},
-                                    {"8 samples", {8, 1}},
-                                    {"2x2 pixels", {1, 2}},
-                                    {"4x4 pixels", {1, 4}},
-                                    {"8x8 pixels", {1, 8}}}) {
+    for (const Named& named : {Named{"1 sample", {1, 1}},
+                               {"2 samples", {2, 1}},
+                               {"4 samples", {4, 1}},
+                               {"8 samples", {8, 1}},
+                               {"2x2 pixels", {1, 2}},
+                               {"4x4 pixels", {1, 4}},
+                               {"8x8 pixels", {1, 8}}}) {
+        const Smooth how = named.how;
         const auto picture = std::make_shared<SmoothPicture>(how);
         const auto half = std::make_shared<const HalfPlane>(0.3);
         const double samples = how.samples * how.n * how.n;
-        e.variants.push_back({name,
+        e.variants.push_back({named.name,
                               "",
                               [=] {
                                   return Outcome(
