@@ -14,34 +14,29 @@ struct SamplePattern
     {
         int x, y;  // from the pixel's centre, in sub-pixels (1/256 px), y down
     };
+    using Positions = std::array<Position, kMaxSamples>;
 
     int count;
-    int reach;  // no coordinate is further from the centre
-    std::array<Position, kMaxSamples> position;
+    int reach = 0;  // no coordinate is further from the centre
+    Positions position;
+
+    // Of positions in sixteenths of a pixel, as Direct3D gives them.
+    consteval SamplePattern(int number, const Positions& sixteenths) : count(number), position(sixteenths)
+    {
+        for (Position& p : position) {
+            p = {16 * p.x, 16 * p.y};
+            for (const int c : {p.x, -p.x, p.y, -p.y}) reach = c > reach ? c : reach;
+        }
+    }
 
     bool isMultiple() const { return count > 1; }
 };
 
-namespace detail {
-
-// In sixteenths of a pixel.
-consteval SamplePattern sixteenths(int count, std::array<SamplePattern::Position, kMaxSamples> positions)
-{
-    int reach = 0;
-    for (SamplePattern::Position& p : positions) {
-        p = {16 * p.x, 16 * p.y};
-        for (const int c : {p.x, -p.x, p.y, -p.y}) reach = c > reach ? c : reach;
-    }
-    return {count, reach, positions};
-}
-
-}  // namespace detail
-
 inline constexpr SamplePattern kSamplePatterns[] = {
-    detail::sixteenths(1, {{{0, 0}}}),
-    detail::sixteenths(2, {{{4, 4}, {-4, -4}}}),
-    detail::sixteenths(4, {{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}}}),
-    detail::sixteenths(8, {{{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}}),
+    {1, {{{0, 0}}}},
+    {2, {{{4, 4}, {-4, -4}}}},
+    {4, {{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}}}},
+    {8, {{{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}}},
 };
 inline constexpr const SamplePattern& kOneSample = kSamplePatterns[0];
 
