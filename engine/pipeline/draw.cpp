@@ -64,7 +64,7 @@ struct TriangleInTile
 {
     TriangleWeights weights;
     TriangleEdges edges;
-    TriangleEdges sampleEdges[severalSamples ? kMaxSamples : 1];
+    std::array<TriangleEdges, severalSamples ? kMaxSamples : 0> sampleEdges;
     int lane;
 
     TriangleInTile(const TriangleBatch& batch, int triangle) { set(batch, triangle); }
@@ -74,8 +74,8 @@ struct TriangleInTile
         weights.set(batch, triangle);
         edges.set(batch, triangle);
         if constexpr (severalSamples) {
-            for (int s = 0; s < batch.samples->count; ++s)
-                sampleEdges[s].set(batch, triangle, batch.samples->position[static_cast<std::size_t>(s)]);
+            for (std::size_t s = 0; s < static_cast<std::size_t>(batch.samples->count); ++s)
+                sampleEdges[s].set(batch, triangle, batch.samples->position[s]);
         }
     }
 };
@@ -98,11 +98,23 @@ void storeEdges(const Float (&edge)[3], float (&to)[3][kLanes])
     edge[2].store(to[2]);
 }
 
+// A block that is to be shaded.
+void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsigned live, Counts& counts)
+{
+    block.live = live;
+    block.quads = wholeQuads(leavesOut::hidden ? live : covered.coverage);
+    block.index = index;
+    block.covered = covered;
+    counts.quadPixels += static_cast<unsigned>(countBits(block.quads));
+    counts.pixels += static_cast<unsigned>(countBits(live));
+}
+
 // Before the program runs: which pixels pass the depth test. `inTile`: bounds of all blocks together. Their depth is
 // written here, too, unless the program may throw them away afterwards. Returns whether there is anything to shade.
 template <class State>
 bool testEarly(const State& state, const TriangleInTile<false>& triangle, const CoveredBlock& covered,
-               const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
+               const SampleCoverage* /* the one sample's is the block's */, const DepthBounds& inTile,
+               ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
@@ -127,20 +139,14 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
         if (state.readsEdges) storeEdges(edge, block.edge);
         if (state.readsCentroids) storeEdges(edge, block.centroid);
     }
-    const unsigned quads = wholeQuads(leavesOut::hidden ? live : coverage);
-    counts.quadPixels += static_cast<unsigned>(countBits(quads));
-    counts.pixels += static_cast<unsigned>(countBits(live));
-    block.live = live;
-    block.quads = quads;
-    block.index = index;
-    block.covered = covered;
+    setBlock(block, covered, index, live, counts);
     return true;
 }
 
 // The same where a pixel has several samples, each with a depth of its own.
 template <class State>
 bool testEarly(const State& state, const TriangleInTile<true>& triangle, const CoveredBlock& covered,
-               const SampleCoverage& samples, const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
+               const SampleCoverage* samples, const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
@@ -157,9 +163,9 @@ bool testEarly(const State& state, const TriangleInTile<true>& triangle, const C
     const unsigned inside = ((edge[0] >= 0.0f) & (edge[1] >= 0.0f) & (edge[2] >= 0.0f)).bits();
     unsigned live = 0, everywhere = kAllLanes, placed = inside;
     for (int s = 0; s < tile.samples().count; ++s) {
-        unsigned lanes = samples[static_cast<std::size_t>(s)];
+        unsigned lanes = (*samples)[static_cast<std::size_t>(s)];
         everywhere &= lanes;
-        triangle.sampleEdges[s].at(x, y, edge);
+        triangle.sampleEdges[static_cast<std::size_t>(s)].at(x, y, edge);
         // The centroid of a pixel whose centre is not in the triangle is its first sample that is.
         const Mask first = Mask::fromBits(lanes & ~placed);
         for (int k = 0; k < 3; ++k) select(first, edge[k], Float::load(block.centroid[k])).store(block.centroid[k]);
@@ -176,13 +182,7 @@ bool testEarly(const State& state, const TriangleInTile<true>& triangle, const C
     if (leavesOut::hidden && live == 0) return false;
     if (everywhere == kAllLanes && state.depthWrite && !state.discards)
         updateBounds(state.depthTest, weights.nearest, weights.farthest, true, bounds);
-    const unsigned quads = wholeQuads(leavesOut::hidden ? live : covered.coverage);
-    counts.quadPixels += static_cast<unsigned>(countBits(quads));
-    counts.pixels += static_cast<unsigned>(countBits(live));
-    block.live = live;
-    block.quads = quads;
-    block.index = index;
-    block.covered = covered;
+    setBlock(block, covered, index, live, counts);
     block.covered.coverage = static_cast<std::uint16_t>(inside);
     return true;
 }
@@ -225,7 +225,7 @@ void testLate(const State& state, const Draw& draw, const TriangleInTile<true>& 
         lanes = static_cast<std::uint16_t>(keptLanes(draw, block, lanes, s, tile.samples().count));
         block.live |= lanes;
         if (state.usesDepth) {
-            writeDepthLate(state, triangle.weights, triangle.sampleEdges[s], block, lanes,
+            writeDepthLate(state, triangle.weights, triangle.sampleEdges[static_cast<std::size_t>(s)], block, lanes,
                            tile.depth(tile.sampleOf(block.index, s)), tile);
         }
     }
@@ -278,8 +278,8 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
 
 template <class State>
 void shadeBlocksIn(const State& state, const Draw& draw, std::span<const CoveredBlock> blocks,
-                   [[maybe_unused]] const SampleCoverage* samples, const TriangleBatch& batch,
-                   const TriangleChunk& chunk, Tile& tile, Counts& counts)
+                   const SampleCoverage* samples, const TriangleBatch& batch, const TriangleChunk& chunk, Tile& tile,
+                   Counts& counts)
 {
     constexpr bool severalSamples = State::severalSamples;
     const bool runsProgram = tile.hasColor() || state.discards;
@@ -299,14 +299,8 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
                 corners[static_cast<std::size_t>(triangle.lane)] =
                     cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
             }
-            const auto test = [&](const auto&... sampled) {
-                return testEarly(state, triangle, *next, sampled..., inTile, *free, tile, counts);
-            };
-            if constexpr (severalSamples) {
-                free += test(samples[next - blocks.begin()]) ? 1 : 0;
-            } else {
-                if (test()) ++free;
-            }
+            const SampleCoverage* of = severalSamples ? samples + (next - blocks.begin()) : nullptr;
+            if (testEarly(state, triangle, *next, of, inTile, *free, tile, counts)) ++free;
         }
         const std::span<ShadedBlock> shaded(group.data(), free);
         counts.blocks += static_cast<unsigned>(shaded.size());

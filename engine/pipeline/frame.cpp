@@ -169,17 +169,15 @@ Statistics Frame::Storage::run()
     shadeVertices();
     cutPrimitives();
     const TargetMemory memory(target);
-    const Clear cleared = clearOf(memory);
     betweenParts.assign(static_cast<std::size_t>(grid.count()), {});
-    for (Part part = {0, 0, false}; !part.isLast; startNextPart(part)) {
+    for (Part part = {0, 0, false, clearOf(memory), memory}; !part.isLast; startNextPart(part)) {
         setUpAndBin(part.first);
         while (part.last < usedChunks && chunks[part.last].isReady && chunks[part.last].rest.empty()) ++part.last;
         part.isLast = part.last == usedChunks;
         // A chunk that was too much for the room is drawn as far as it goes.
         if (!part.isLast && chunks[part.last].isReady) ++part.last;
-        workers.run(grid.count(), [&](int tile, int worker) {
-            drawTile(part, memory, cleared, tile, perWorker[static_cast<std::size_t>(worker)]);
-        });
+        workers.run(grid.count(),
+                    [&](int tile, int worker) { drawTile(part, tile, perWorker[static_cast<std::size_t>(worker)]); });
     }
     betweenParts.clear();
 
@@ -306,8 +304,7 @@ void Frame::Storage::setUpAndBin(Chunk& chunk, const DrawGeometry* const* geomet
     sortByTile(chunk, grid);
 }
 
-void Frame::Storage::drawTile(const Part& part, const TargetMemory& memory, const Clear& cleared, int tileIndex,
-                              Worker& worker)
+void Frame::Storage::drawTile(const Part& part, int tileIndex, Worker& worker)
 {
     const auto tile = static_cast<std::size_t>(tileIndex);
     bool isTouched = false;
@@ -317,13 +314,13 @@ void Frame::Storage::drawTile(const Part& part, const TargetMemory& memory, cons
     std::vector<std::int32_t>& before = betweenParts[tile];
     const bool isNew = before.empty();
     if (!isTouched && !part.isLast) return;
-    if (!isTouched && isNew && !cleared.color && !cleared.depth) return;
+    if (!isTouched && isNew && !part.clear.color && !part.clear.depth) return;
 
     const Rectangle pixels = tilePixels(tileIndex);
-    if (leavesOut::tiles && !isTouched && isNew) return clearRectangle(memory, pixels, cleared);
-    if (!worker.tile) worker.tile = std::make_unique<Tile>(grid.tileSize, memory);
+    if (leavesOut::tiles && !isTouched && isNew) return clearRectangle(part.memory, pixels, part.clear);
+    if (!worker.tile) worker.tile = std::make_unique<Tile>(grid.tileSize, part.memory);
     if (isNew) {
-        worker.tile->begin(pixels.x0, pixels.y0, memory, cleared);
+        worker.tile->begin(pixels.x0, pixels.y0, part.memory, part.clear);
     } else {
         worker.tile->restore(pixels.x0, pixels.y0, before);
     }
@@ -333,7 +330,7 @@ void Frame::Storage::drawTile(const Part& part, const TargetMemory& memory, cons
     for (std::size_t c = part.first; c < part.last; ++c) drawBin(chunks[c], tileIndex, worker);
     worker.statistics.fetches += shading.fetches;
     if (part.isLast) {
-        worker.tile->store(memory);
+        worker.tile->store(part.memory);
     } else {
         before = worker.tile->save();
     }

@@ -61,11 +61,14 @@ struct Frame::Storage
         bool isReady = false;  // set up as far as it goes
     };
 
-    // Chunks first ... last - 1. There are several parts where a frame has too many triangles to bin them all at once.
+    // Chunks first ... last - 1 of a frame that draws onto what `clear` says. There are several parts where a frame has
+    // too many triangles to bin them all at once.
     struct Part
     {
         std::size_t first, last;
         bool isLast;
+        Clear clear;
+        TargetMemory memory;
     };
 
     Statistics run();
@@ -76,7 +79,7 @@ struct Frame::Storage
     void startNextPart(Part& part);
     void setUpAndBin(std::size_t firstChunk);
     void setUpAndBin(Chunk& chunk, const DrawGeometry* const* geometry, Statistics& statistics);
-    void drawTile(const Part& part, const TargetMemory& memory, const Clear& cleared, int tileIndex, Worker& worker);
+    void drawTile(const Part& part, int tileIndex, Worker& worker);
     void drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker);
 
     Rectangle tilePixels(int tileIndex) const

@@ -77,7 +77,7 @@ struct WatchedBlock
     }
 };
 
-// The depth that is written.
+// The depth that is written; where a pixel has several samples, that of its centre.
 void noteDepth(const WatchedBlock& b, unsigned lanes)
 {
     if (!b.draw.writesDepth) return;
@@ -96,6 +96,9 @@ void noteInterpolator(const WatchedBlock& b, unsigned lanes)
     const Slots& slots = *b.draw.slots;
     Float edge[3];
     b.edges(edge);
+    if (slots.interpolation == Interpolation::centroid) {
+        for (int k = 0; k < 3; ++k) edge[k] = Float::load(b.block.centroid[k]);
+    }
     TriangleWeights triangle;
     triangle.set(b.batch, b.block.covered.triangle);
     const BlockWeights weights = triangle.of(edge, b.block.covered.coverage);

@@ -64,7 +64,10 @@ float shadeSample(const Draw& draw, const Sample& sample, std::uint64_t times)
     block.quads = wholeQuads(sample.block.coverage);
     Float edge[3];
     edges.at(sample.block.x, sample.block.y, edge);
-    for (int k = 0; k < 3; ++k) edge[k].store(block.edge[k]);
+    for (int k = 0; k < 3; ++k) {
+        edge[k].store(block.edge[k]);
+        edge[k].store(block.centroid[k]);
+    }
     std::array<ShadedBlock, 16> group;
     group.fill(block);
     float sum = 0.0f;
