@@ -3,18 +3,12 @@
 #include <doctest/doctest.h>
 
 #include "pipeline/edge_function.h"
+#include "pipeline/instruments.h"
 #include "pipeline_fixture.h"
 
 using namespace fixture;
 
 namespace {
-
-Corners moved(const Corners& c, SamplePattern::Position by)
-{
-    Corners result = c;
-    for (Point& p : result) p = {p.x - by.x, p.y - by.y};
-    return result;
-}
 
 // Hits of each sample of each pixel.
 class SampleRaster
@@ -90,25 +84,30 @@ private:
 
 constexpr RenderState kUsual = {Compare::less, true, true, Cull::none, Blend::off};
 
-// The value of the triangle's first vertex: a colour without any interpolation.
-struct FlatInterpolated
+// The fixture's programs with the value interpolated in another way.
+template <class Field>
+struct Varying
 {
     SV_POSITION position;
-    nointerpolation<TEXCOORD<0, float4>> value;
+    Field value;
 };
-struct FlatFromPixels : FromPixels
+template <class Field>
+struct VaryingFromPixels : FromPixels
 {
     using FromPixels::FromPixels;
-    FlatInterpolated operator()(const TestVertexData& v) const
+    Varying<Field> operator()(const TestVertexData& v) const
     {
         const Interpolated i = FromPixels::operator()(v);
         return {i.position, i.value};
     }
 };
-struct FlatValue
+template <class Field>
+struct VaryingValue
 {
-    float4 operator()(const FlatInterpolated& i) const { return i.value; }
+    float4 operator()(const Varying<Field>& i) const { return i.value; }
 };
+using Flat = nointerpolation<TEXCOORD<0, float4>>;
+using Centroid = centroid<TEXCOORD<0, float4>>;
 
 Framebuffer multisampled(int width, int height, int samples, Format format = Format::rgba32f,
                          Store depth = Store::discard)
@@ -145,7 +144,7 @@ Framebuffer drawMoved(const Mesh& mesh, int width, int height, int samples, Samp
     const Viewport viewport = exactViewport(width, height);
     frame.clear({0.25f, 0.5f, 0.75f, 1.0f}, state.depthTest == Compare::greater ? 0.0f : 1.0f);
     frame.setViewport(viewport);
-    REQUIRE(frame.draw(copy, FlatFromPixels(viewport), FlatValue{}, state));
+    REQUIRE(frame.draw(copy, VaryingFromPixels<Flat>(viewport), VaryingValue<Flat>{}, state));
     checkInvariants(target, frame.run());
     return target;
 }
@@ -200,25 +199,8 @@ TEST_CASE("multisampling: a shared edge is hit once per sample")
     for (int trial = 0; trial < trials(3000); ++trial) {
         const int side = 34, n = random.between(2, 12);
         SampleRaster raster(side, kSamplePatterns[1 + trial % 3]);
-        std::vector<Point> points;
-        for (int j = 0; j <= n; ++j) {
-            for (int i = 0; i <= n; ++i) {
-                const int cell = side * 256 / n;
-                Point p = {i == n ? side * 256 : i * cell, j == n ? side * 256 : j * cell};
-                if (i > 0 && i < n) p.x += random.between(-cell / 5, cell / 5);
-                if (j > 0 && j < n) p.y += random.between(-cell / 5, cell / 5);
-                points.push_back(p);
-            }
-        }
-        for (int j = 0; j < n; ++j) {
-            for (int i = 0; i < n; ++i) {
-                const auto at = [&](int x, int y) {
-                    return points[static_cast<std::size_t>((j + y) * (n + 1) + i + x)];
-                };
-                raster.add({at(0, 0), at(1, 0), at(1, 1)});
-                raster.add({at(0, 0), at(1, 1), at(0, 1)});
-            }
-        }
+        const Grid grid(n, side, [&](Point p, int cell) { return jitter(random, p, cell); });
+        grid.triangulate([&] { return random.chance(2); }, [&](const Corners& c) { raster.add(c); });
         wrong += raster.broken;
         for (const std::vector<int>& hits : raster.counts)
             wrong += std::any_of(hits.begin(), hits.end(), [](int number) { return number != 1; });
@@ -301,25 +283,6 @@ TEST_CASE("multisampling: samples are averaged in linear light")
 
 namespace {
 
-struct CentroidInterpolated
-{
-    SV_POSITION position;
-    centroid<TEXCOORD<0, float4>> value;
-};
-struct CentroidFromPixels : FromPixels
-{
-    using FromPixels::FromPixels;
-    CentroidInterpolated operator()(const TestVertexData& v) const
-    {
-        const Interpolated i = FromPixels::operator()(v);
-        return {i.position, i.value};
-    }
-};
-struct CentroidValue
-{
-    float4 operator()(const CentroidInterpolated& i) const { return i.value; }
-};
-
 template <class VertexProgram, class FragmentProgram>
 Framebuffer drawValues(const Mesh& mesh, int samples)
 {
@@ -356,17 +319,18 @@ TEST_CASE("multisampling: at the centroid no value leaves the triangle's range (
         }
         addTriangle(mesh, corner[0], corner[1], corner[2]);
         for (const int samples : {2, 4, 8}) {
-            const Framebuffer target = drawValues<CentroidFromPixels, CentroidValue>(mesh, samples);
+            const Framebuffer target = drawValues<VaryingFromPixels<Centroid>, VaryingValue<Centroid>>(mesh, samples);
             CHECK(least(target) >= 0.0f);
         }
-        CHECK(sameBits(drawValues<CentroidFromPixels, CentroidValue>(mesh, 1), drawValues<FromPixels, Value>(mesh, 1)));
+        CHECK(sameBits(drawValues<VaryingFromPixels<Centroid>, VaryingValue<Centroid>>(mesh, 1),
+                       drawValues<FromPixels, Value>(mesh, 1)));
     }
     // At the centre it does: an edge from (0, 0) whose value falls off to the left.
     Mesh edge;
     addTriangle(edge, {{4.6f, 0, 0.5f, 1}, glm::vec4(0.0f)}, {{9.6f, 0, 0.5f, 1}, glm::vec4(1.0f)},
                 {{4.6f, 20, 0.5f, 1}, glm::vec4(0.0f)});
     CHECK(least(drawValues<FromPixels, Value>(edge, 8)) < 0.0f);
-    CHECK(least(drawValues<CentroidFromPixels, CentroidValue>(edge, 8)) >= 0.0f);
+    CHECK(least(drawValues<VaryingFromPixels<Centroid>, VaryingValue<Centroid>>(edge, 8)) >= 0.0f);
 }
 
 namespace {
@@ -422,4 +386,24 @@ TEST_CASE("multisampling: alpha to coverage draws alpha's share of the samples")
             CHECK(statistics.pixelsShaded == 16);
         }
     }
+}
+
+TEST_CASE("multisampling: a program alone gets the same values at centroids as at centres, where there is one sample")
+{
+    Mesh mesh;
+    addTriangle(mesh, {{-40, -40, 0.5f, 1}, glm::vec4(0.1f)}, {{90, -40, 0.5f, 2}, glm::vec4(0.7f)},
+                {{-40, 90, 0.5f, 4}, glm::vec4(0.4f)});
+    const Viewport viewport = exactViewport(32, 32);
+    const auto sum = [&](const auto& vertexProgram, const auto& fragmentProgram) {
+        Framebuffer target = multisampled(32, 32, 1);
+        Frame frame(target, {1, 16});
+        frame.clear(glm::vec4(0.0f));
+        frame.setViewport(viewport);
+        REQUIRE(frame.draw(mesh, vertexProgram, fragmentProgram, kPaint));
+        frame.run();
+        return shadeAlone(frame, 100);
+    };
+    const float plain = sum(FromPixels(viewport), Value{});
+    CHECK(plain > 0.0f);
+    CHECK(sum(VaryingFromPixels<Centroid>(viewport), VaryingValue<Centroid>{}) == plain);
 }

@@ -164,7 +164,7 @@ TEST_CASE("output merger: depth comparisons")
     forEachCompare([&]<Compare compare>() {
         for (const float z : values) {
             for (const float stored : values)
-                wrong += compareDepth(compare, z, stored)[0] != passes(compare, z, stored);
+                wrong += compareBy(compare, z, stored)[0] != passes(compare, z, stored);
         }
     });
     CHECK(wrong == 0);
@@ -440,7 +440,7 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
             const unsigned live = static_cast<unsigned>(random.next()) & kAllLanes;
             alignas(Float) Channels color;
             for (float(&channel)[kLanes] : color) Float(0.75f).store(channel);
-            withFormat(format, [&]<Format f>() { ColorWriter<f>().write(tile.color<f>(0), color, live); });
+            withFormat(format, [&]<Format f>() { ColorWriter<f>().write(tile.color<f>(0, 0), color, live); });
             tile.store(memory);
             Framebuffer cleared = makeTarget(16, 16, format);
             Tile clean(16, TargetMemory(cleared));

@@ -146,6 +146,60 @@ inline void addExactCoverage(const Corners& corners, int width, int height, std:
     });
 }
 
+// The corners as a sample in that place sees them.
+inline Corners moved(const Corners& c, SamplePattern::Position by)
+{
+    Corners result = c;
+    for (Point& p : result) p = {p.x - by.x, p.y - by.y};
+    return result;
+}
+
+// A square from (0, 0) to (side, side) pixels as n x n cells, whose inner corners `place` may move.
+struct Grid
+{
+    int n;
+    std::vector<Point> points;
+
+    template <class Place>
+    Grid(int cells, int side, const Place& place) : n(cells)
+    {
+        for (int j = 0; j <= n; ++j) {
+            for (int i = 0; i <= n; ++i) {
+                const int cell = side * 256 / n;
+                const Point p = {i == n ? side * 256 : i * cell, j == n ? side * 256 : j * cell};
+                const Point inner = place(p, cell);
+                points.push_back({i > 0 && i < n ? inner.x : p.x, j > 0 && j < n ? inner.y : p.y});
+            }
+        }
+    }
+    // Corner (x, y) of cell (i, j).
+    Point at(int i, int j, int x, int y) const { return points[static_cast<std::size_t>((j + y) * (n + 1) + i + x)]; }
+
+    // Calls add(corners) for both triangles of each cell, which is cut from the upper left where `falls()` says so.
+    template <class Falls, class Add>
+    void triangulate(const Falls& falls, const Add& add) const
+    {
+        for (int j = 0; j < n; ++j) {
+            for (int i = 0; i < n; ++i) {
+                const Point a = at(i, j, 0, 0), b = at(i, j, 1, 0), c = at(i, j, 1, 1), d = at(i, j, 0, 1);
+                if (falls()) {
+                    add(Corners{a, b, c});
+                    add(Corners{a, c, d});
+                } else {
+                    add(Corners{a, b, d});
+                    add(Corners{b, c, d});
+                }
+            }
+        }
+    }
+};
+
+// Moves a grid's corner by less than half a cell: no triangle flips over by more than a sliver, none leaves the square.
+inline Point jitter(Random& random, Point p, int cell)
+{
+    return {p.x + random.between(-cell / 5, cell / 5), p.y + random.between(-cell / 5, cell / 5)};
+}
+
 // Any kind of triangle on or around a target; no coordinate beyond +-limit pixels.
 inline Corners randomTriangle(Random& random, int width, int height, int limit = 32000)
 {

@@ -282,36 +282,15 @@ TEST_CASE("raster: random triangulations of a square hit every pixel once (S-301
     for (int trial = 0; trial < trials(10000); ++trial) {
         const int n = random.between(2, 16), side = random.chance(8) ? 130 : 34;
         const bool aligned = random.chance(4);  // inner points on pixel centres and on multiples of 64 too
-        std::vector<Point> points;
-        for (int j = 0; j <= n; ++j) {
-            for (int i = 0; i <= n; ++i) {
-                const int cell = side * 256 / n;
-                Point p = {i == n ? side * 256 : i * cell, j == n ? side * 256 : j * cell};
-                // Jitter below half a cell: no triangle flips over by more than a sliver, none leaves the square.
-                if (i > 0 && i < n) p.x += random.between(-cell / 5, cell / 5);
-                if (j > 0 && j < n) p.y += random.between(-cell / 5, cell / 5);
-                if (aligned && i > 0 && i < n) p.x = (p.x & -256) + 128 * (random.chance(2) ? 1 : 0);
-                if (aligned && j > 0 && j < n) p.y = (p.y & -256) + 128 * (random.chance(2) ? 1 : 0);
-                points.push_back(p);
-            }
-        }
+        const Grid grid(n, side, [&](Point p, int cell) {
+            p = jitter(random, p, cell);
+            const auto centre = [&](int v) { return (v & -256) + 128 * (random.chance(2) ? 1 : 0); };
+            return aligned ? Point{centre(p.x), centre(p.y)} : p;
+        });
         // Rounded to centres, neighbours of a fine grid may change places: then it is no triangulation.
         if (aligned && side / n < 5) continue;
         Raster raster(side, side);
-        for (int j = 0; j < n; ++j) {
-            for (int i = 0; i < n; ++i) {
-                const auto at = [&](int x, int y) {
-                    return points[static_cast<std::size_t>((j + y) * (n + 1) + i + x)];
-                };
-                if (random.chance(2)) {
-                    raster.add({at(0, 0), at(1, 0), at(1, 1)});
-                    raster.add({at(0, 0), at(1, 1), at(0, 1)});
-                } else {
-                    raster.add({at(0, 0), at(1, 0), at(0, 1)});
-                    raster.add({at(1, 0), at(1, 1), at(0, 1)});
-                }
-            }
-        }
+        grid.triangulate([&] { return random.chance(2); }, [&](const Corners& c) { raster.add(c); });
         wrong += std::any_of(raster.counts.begin(), raster.counts.end(), [](int hits) { return hits != 1; });
         wrong += raster.broken;
     }

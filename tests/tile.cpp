@@ -148,7 +148,7 @@ TEST_CASE("tile: blocks hold the pixels that their lanes name")
             for (int lane = 0; lane < kLanes; ++lane) {
                 const auto i = static_cast<std::size_t>((y + laneY(lane)) * 64 + x + laneX(lane));
                 for (int c = 0; c < 4; ++c)
-                    wrong += std::bit_cast<float>(tile.color<Format::rgba32f>(block)[c * kLanes + lane]) !=
+                    wrong += std::bit_cast<float>(tile.color<Format::rgba32f>(0, block)[c * kLanes + lane]) !=
                              target.color32f()[i][c];
                 wrong += tile.depth(block)[lane] != target.depth()[i];
                 nearest = std::fmin(nearest, target.depth()[i]);
@@ -168,7 +168,7 @@ TEST_CASE("tile: nothing of the tile before remains after clear and load")
     tile.begin(32, 32, TargetMemory(target), {std::nullopt, 0.75f});
     for (int block = 0; block < 32 * 32 / kLanes; ++block) {
         for (int lane = 0; lane < kLanes; ++lane) {
-            REQUIRE(tile.color<Format::rgba8>(block)[lane] == 0);
+            REQUIRE(tile.color<Format::rgba8>(0, block)[lane] == 0);
             REQUIRE(tile.depth(block)[lane] == 0.75f);
         }
         REQUIRE(tile.bounds(block).nearest == 0.75f);

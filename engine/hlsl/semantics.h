@@ -24,16 +24,31 @@ enum class Interpolation
     centroid
 };
 
+// What the pipeline has to do with a value, beside carrying it.
+enum class SystemValue
+{
+    none,
+    position,      // takes it from the vertex program, and gives the pixel's
+    id,            // counts it
+    facing,        // gives it to the fragment program
+    clipDistance,  // takes it from the vertex program, and carries it, too
+    target,        // takes it from the fragment program, and so the next two
+    depth,
+    coverage
+};
+
 // A value with a meaning. `Meaning` is the semantic's tag, `T` one of Float, float2, float3, float4, Int, int2 ...
-// int4. A field that nobody assigns is 0.
+// int4, Mask. A field that nobody assigns is 0.
 template <class Meaning, class T>
 struct Semantic : T
 {
     using Value = T;
     static constexpr const char* kName = Meaning::kName;
     static constexpr int kIndex = Meaning::kIndex;
-    static constexpr bool kIsPosition = Meaning::kIsPosition;
-    static constexpr bool kIsId = Meaning::kIsId;
+    static constexpr SystemValue kSystemValue = Meaning::kSystemValue;
+    static constexpr bool kIsPosition = kSystemValue == SystemValue::position;
+    static constexpr bool kIsInterpolated =
+        kSystemValue != SystemValue::position && kSystemValue != SystemValue::facing;
     static constexpr Interpolation kInterpolation = Meaning::kInterpolation;
 
     Semantic() : T{} {}
@@ -47,24 +62,52 @@ namespace semantic {
 struct Plain
 {
     static constexpr int kIndex = 0;
-    static constexpr bool kIsPosition = false;
-    static constexpr bool kIsId = false;  // counted by the pipeline, not read from a mesh
+    static constexpr SystemValue kSystemValue = SystemValue::none;
     static constexpr Interpolation kInterpolation = Interpolation::perspective;
 };
 struct SvVertexId : Plain
 {
     static constexpr const char* kName = "SV_VertexID";
-    static constexpr bool kIsId = true;
+    static constexpr SystemValue kSystemValue = SystemValue::id;
 };
 struct SvInstanceId : Plain
 {
     static constexpr const char* kName = "SV_InstanceID";
-    static constexpr bool kIsId = true;
+    static constexpr SystemValue kSystemValue = SystemValue::id;
 };
 struct SvPosition : Plain
 {
     static constexpr const char* kName = "SV_POSITION";
-    static constexpr bool kIsPosition = true;
+    static constexpr SystemValue kSystemValue = SystemValue::position;
+};
+struct SvIsFrontFace : Plain
+{
+    static constexpr const char* kName = "SV_IsFrontFace";
+    static constexpr SystemValue kSystemValue = SystemValue::facing;
+};
+template <int index>
+struct SvClipDistance : Plain
+{
+    static constexpr const char* kName = "SV_ClipDistance";
+    static constexpr int kIndex = index;
+    static constexpr SystemValue kSystemValue = SystemValue::clipDistance;
+};
+template <int index>
+struct SvTarget : Plain
+{
+    static constexpr const char* kName = "SV_Target";
+    static constexpr int kIndex = index;
+    static constexpr SystemValue kSystemValue = SystemValue::target;
+};
+struct SvDepth : Plain
+{
+    static constexpr const char* kName = "SV_Depth";
+    static constexpr SystemValue kSystemValue = SystemValue::depth;
+};
+struct SvCoverage : Plain
+{
+    static constexpr const char* kName = "SV_Coverage";
+    static constexpr SystemValue kSystemValue = SystemValue::coverage;
 };
 struct Position : Plain
 {
@@ -116,6 +159,23 @@ using SV_InstanceID = Semantic<semantic::SvInstanceId, Int>;  // the instance's 
 // What it gives: clip space there; pixels in xy, depth in z and the interpolated w in the fragment program.
 using SV_POSITION = Semantic<semantic::SvPosition, float4>;
 
+// Signed distances to planes of the vertex program's own: what is below 0 (or NaN) is cut off. T: Float ... float4, at
+// most 8 components in all.
+template <int index, class T>
+using SV_ClipDistance = Semantic<semantic::SvClipDistance<index>, T>;
+
+// What a fragment program finds among its Interpolators without a vertex program giving it: whether the triangle's
+// front is seen; everywhere for lines.
+using SV_IsFrontFace = Semantic<semantic::SvIsFrontFace, Mask>;
+
+// What a fragment program gives, as one float4 or as a struct of these: the colour for the target's n-th colour
+// attachment (n = 0 ... 3); the depth that is tested and written instead of the triangle's, limited to 0 ... 1; which
+// of the pixel's samples may be drawn, a bit each.
+template <int index>
+using SV_Target = Semantic<semantic::SvTarget<index>, float4>;
+using SV_Depth = Semantic<semantic::SvDepth, Float>;
+using SV_Coverage = Semantic<semantic::SvCoverage, Int>;
+
 // Both: anything, of one to four components.
 template <int index, class T>
 using TEXCOORD = Semantic<semantic::Texcoord<index>, T>;
@@ -144,7 +204,7 @@ concept IsSemantic = requires
     typename T::Value;
     T::kName;
     T::kIndex;
-    T::kIsPosition;
+    T::kSystemValue;
 }
 &&std::is_base_of_v<typename T::Value, T>;
 
@@ -184,6 +244,8 @@ inline Float wordOf(Int component)
 // Whether a value's components are integers.
 template <class T>
 inline constexpr bool kIsInteger = std::is_same_v<decltype(component(std::declval<T&>(), 0)), Int&>;
+template <>
+inline constexpr bool kIsInteger<Mask> = false;
 
 namespace detail {
 
@@ -311,11 +373,33 @@ struct ListFields
 template <class Struct>
 using FieldsOf = decltype(withFields(std::declval<Struct&>(), detail::ListFields{}));
 
-// The components (floats) of a list of fields that are to be interpolated: all but SV_POSITION's.
+// The components (floats) of a list of fields that are to be interpolated: all but SV_POSITION's and SV_IsFrontFace.
 template <class... Field>
 constexpr int interpolatedComponents(FieldList<Field...>)
 {
-    return (0 + ... + (Field::kIsPosition ? 0 : kComponents<typename Field::Value>));
+    return (0 + ... + (Field::kIsInterpolated ? kComponents<typename Field::Value> : 0));
+}
+
+// The components of a list of fields that mean the same to the pipeline.
+template <SystemValue meaning, class... Field>
+constexpr int componentsWith(FieldList<Field...>)
+{
+    return (0 + ... + (Field::kSystemValue == meaning ? kComponents<typename Field::Value> : 0));
+}
+
+// A bit for each index that these fields have.
+template <SystemValue meaning, class... Field>
+constexpr unsigned indicesWith(FieldList<Field...>)
+{
+    return (0u | ... | (Field::kSystemValue == meaning ? 1u << Field::kIndex : 0u));
+}
+
+// Whether the fields mean nothing else.
+template <SystemValue... meanings, class... Field>
+constexpr bool meanOnly(FieldList<Field...>)
+{
+    constexpr auto isAllowed = [](SystemValue value) { return (false || ... || (value == meanings)); };
+    return (true && ... && isAllowed(Field::kSystemValue));
 }
 
 template <class... Field>

@@ -32,6 +32,18 @@ Place placeFor(const Field& field, std::vector<Register>& registers)
     return {number, first};
 }
 
+const char* systemValueOf(const Field& field)
+{
+    switch (field.systemValue) {
+        case SystemValue::position:
+            return "POS";
+        case SystemValue::clipDistance:
+            return "CLIPDST";
+        default:
+            return "NONE";
+    }
+}
+
 std::string left(std::string text, std::size_t width)
 {
     return text + std::string(text.size() < width ? width - text.size() : 0, ' ');
@@ -52,6 +64,7 @@ std::string signatureOf(Fields fields)
         "// -------------------- ----- ------ -------- -------- ------- ------\n";
     std::vector<Register> registers;
     for (const Field& field : fields) {
+        if (field.systemValue == SystemValue::facing) continue;  // no vertex program gives it
         const Place place = placeFor(field, registers);
         std::string mask = "    ";
         for (int i = 0; i < field.components; ++i) {
@@ -59,7 +72,7 @@ std::string signatureOf(Fields fields)
             mask[c] = "xyzw"[c];
         }
         std::string line = "// " + left(field.name, 20) + right(std::to_string(field.index), 6) + right(mask, 7) +
-                           right(std::to_string(place.number), 9) + right(field.isPosition ? "POS" : "NONE", 9) +
+                           right(std::to_string(place.number), 9) + right(systemValueOf(field), 9) +
                            right(field.isInteger ? "int" : "float", 8) + right(mask, 7);
         line.erase(line.find_last_not_of(' ') + 1);
         table += line + "\n";

@@ -18,8 +18,9 @@ struct Field
     int index;
     int components;  // 1 ... 4
     Interpolation interpolation;
-    bool isPosition, isInteger;
-    bool isId;  // SV_VertexID, SV_InstanceID
+    SystemValue systemValue;
+    bool isInteger;
+    bool isInterpolated;  // or what the pipeline gives
 };
 
 // The fields of a struct, in order. What a std::span checks of its iterators would be most of a draw's compile time.
@@ -46,8 +47,8 @@ namespace detail {
 template <class... F>
 constexpr std::array<Field, sizeof...(F)> listFields(FieldList<F...>)
 {
-    return {Field{F::kName, F::kIndex, kComponents<typename F::Value>, F::kInterpolation, F::kIsPosition,
-                  kIsInteger<typename F::Value>, F::kIsId}...};
+    return {Field{F::kName, F::kIndex, kComponents<typename F::Value>, F::kInterpolation, F::kSystemValue,
+                  kIsInteger<typename F::Value>, F::kIsInterpolated}...};
 }
 
 }  // namespace detail

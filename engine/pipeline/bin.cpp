@@ -67,8 +67,8 @@ void findTiles(TriangleChunk& chunk, std::uint32_t begin, const TileGrid& grid, 
     for (std::uint32_t next = begin; next < total;) {
         const Triangle* const first = &chunk.triangles[next];
         std::uint32_t count = 1;
-        while (count < kLanes && next + count < total && first[count].drawIndex == first->drawIndex) ++count;
-        const DrawGeometry& draw = *draws[first->drawIndex];
+        while (count < kLanes && next + count < total && first[count].drawIndex() == first->drawIndex()) ++count;
+        const DrawGeometry& draw = *draws[first->drawIndex()];
         const TileSpans span(first, count, grid, draw);
         const Int tile = span.y0 * Int(grid.width) + span.x0;
         const unsigned single = ((span.x0 == span.x1) & (span.y0 == span.y1)).bits();

@@ -1,10 +1,12 @@
 #include "pipeline/clip.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
 #include "pipeline/limits.h"
+#include "pipeline/viewport_transform.h"
 
 namespace relief::inline RELIEF_WIDTH {
 
@@ -18,12 +20,14 @@ enum class Plane
     left,
     right,
     bottom,
-    top
+    top,
+    own  // and those after it: the vertex program's
 };
 
 // Signed distance to a plane, positive inside. In double: a product of two floats is exact there, so the sign is right.
-double distance(Plane plane, const glm::vec4& p, const ClipLimits& limits)
+double distance(Plane plane, const ClipVertex& vertex, const ClipLimits& limits)
 {
+    const glm::vec4& p = vertex.position;
     switch (plane) {
         case Plane::smallW:
             return static_cast<double>(p.w) - static_cast<double>(kSmallestW);
@@ -39,8 +43,13 @@ double distance(Plane plane, const glm::vec4& p, const ClipLimits& limits)
             return static_cast<double>(p.w) + static_cast<double>(p.y) * limits.inverseGuardY;
         case Plane::top:
             return static_cast<double>(p.w) - static_cast<double>(p.y) * limits.inverseGuardY;
+        default:
+            break;
     }
-    return 0.0;
+    const float(&corner)[3] = limits.distance[static_cast<int>(plane) - static_cast<int>(Plane::own)];
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += static_cast<double>(vertex.weight[k]) * static_cast<double>(corner[k]);
+    return sum;
 }
 
 // a + t (b - a), rounded once, and never beyond the two ends.
@@ -70,6 +79,8 @@ void putOnPlane(Plane plane, const ClipLimits& limits, const glm::vec4& a, const
             return put(1, -p.w / limits.inverseGuardY);
         case Plane::top:
             return put(1, p.w / limits.inverseGuardY);
+        default:
+            return;
     }
 }
 
@@ -89,8 +100,11 @@ ClipVertex cut(Plane plane, const ClipLimits& limits, const ClipVertex& inside, 
     return v;
 }
 
-constexpr Plane kPlanes[] = {Plane::smallW, Plane::near,   Plane::far, Plane::left,
-                             Plane::right,  Plane::bottom, Plane::top};
+// The planes' numbers are 0 ... planeCount() - 1.
+int planeCount(const ClipLimits& limits)
+{
+    return static_cast<int>(Plane::own) + limits.distanceCount;
+}
 
 bool isLeftOut(Plane plane, const ClipLimits& limits)
 {
@@ -113,6 +127,22 @@ float mixed(const ClipVertex& vertex, const float (&corner)[3], Interpolation in
 
 }  // namespace
 
+ClipLimits clipLimits(const DrawGeometry& draw, const std::array<std::uint32_t, 3>& corners)
+{
+    const ViewportTransform transform(draw.viewport);
+    ClipLimits limits = {transform.inverseGuardX, transform.inverseGuardY, draw.depthClip};
+    limits.distanceCount = draw.clipDistanceCount;
+    constexpr float largest = std::numeric_limits<float>::max();
+    for (int i = 0; i < limits.distanceCount; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float d = draw.components[corners[k] * std::size_t{draw.componentStride} +
+                                            draw.clipDistances[static_cast<std::size_t>(i)]];
+            limits.distance[i][k] = std::isnan(d) ? -largest : std::clamp(d, -largest, largest);
+        }
+    }
+    return limits;
+}
+
 int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span<ClipVertex, kMaxClippedVertices> out)
 {
     ClipVertex buffers[2][kMaxClippedVertices];
@@ -125,14 +155,14 @@ int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span
     }
 
     int count = 3;
-    for (const Plane plane : kPlanes) {
+    for (int p = 0; p < planeCount(limits); ++p) {
+        const auto plane = static_cast<Plane>(p);
         if (isLeftOut(plane, limits)) continue;
         int kept = 0;
         for (int i = 0; i < count; ++i) {
             const ClipVertex& a = polygon[i];
             const ClipVertex& b = polygon[(i + 1) % count];
-            const double da = distance(plane, a.position, limits);
-            const double db = distance(plane, b.position, limits);
+            const double da = distance(plane, a, limits), db = distance(plane, b, limits);
             if (da >= 0.0) next[kept++] = a;
             if (da > 0.0 && db < 0.0) next[kept++] = cut(plane, limits, a, da, b, db);
             if (da < 0.0 && db > 0.0) next[kept++] = cut(plane, limits, b, db, a, da);
@@ -149,10 +179,10 @@ bool clipLine(const glm::vec4 ends[2], const ClipLimits& limits, ClipVertex out[
 {
     out[0] = {ends[0], {1.0f, 0.0f, 0.0f}, {1.0, 0.0, 0.0}};
     out[1] = {ends[1], {0.0f, 1.0f, 0.0f}, {0.0, 1.0, 0.0}};
-    for (const Plane plane : kPlanes) {
+    for (int p = 0; p < planeCount(limits); ++p) {
+        const auto plane = static_cast<Plane>(p);
         if (isLeftOut(plane, limits)) continue;
-        const double d0 = distance(plane, out[0].position, limits);
-        const double d1 = distance(plane, out[1].position, limits);
+        const double d0 = distance(plane, out[0], limits), d1 = distance(plane, out[1], limits);
         if (d0 < 0.0 && d1 < 0.0) return false;
         // An end on the plane and the other outside leaves a point: both ends are then the same, and cover nothing.
         if (d1 < 0.0) out[1] = d0 > 0.0 ? cut(plane, limits, out[0], d0, out[1], d1) : out[0];

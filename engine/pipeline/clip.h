@@ -20,11 +20,17 @@ struct ClipLimits
 {
     float inverseGuardX, inverseGuardY;  // see viewport_transform.h
     bool depthClip;
+    float distance[kMaxClipDistances][3] = {};  // the corners' to each plane of the vertex program's own
+    int distanceCount = 0;
 };
 
-inline constexpr int kMaxClippedVertices = 3 + 7;  // a corner more for each plane
+// Those of a draw, for a triangle with these corners.
+ClipLimits clipLimits(const DrawGeometry& draw, const std::array<std::uint32_t, 3>& corners);
 
-// Cuts a triangle at w >= kSmallestW, the near and far plane and the guard band's four sides. The result is a convex
+inline constexpr int kMaxClippedVertices = 3 + 7 + kMaxClipDistances;  // a corner more for each plane
+
+// Cuts a triangle at w >= kSmallestW, the near and far plane, the guard band's four sides and the program's own planes.
+// The result is a convex
 // polygon in the triangle's order: its vertex count, 0 if nothing is left. A point on a plane is inside. The new vertex
 // on an edge is computed from the inside end to the outside end, whichever triangle asks: neighbours get the same bits.
 int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span<ClipVertex, kMaxClippedVertices> out);

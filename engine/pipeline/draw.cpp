@@ -1,12 +1,14 @@
 // From covered blocks to pixels: the early depth test, the fragment program, the output merger. Blocks go through these
 // steps in small groups, so that a program is called once for several of them; a group's data stay in the first-level
-// cache. All depths of a group are tested and written before its first colour is merged: depth does not depend on
-// colour, and both keep the order of submission, so every pixel is what it would be one block at a time. Only a program
-// that discards decides about depth, and alpha to coverage does: their blocks go one by one.
+// cache. All depths and stencils of a group are tested and written before its first colour is merged: they do not
+// depend on colour, and both keep the order of submission, so every pixel is what it would be one block at a time. Only
+// a program that discards, or gives depth or coverage, decides about them, and alpha to coverage does: their blocks go
+// one by one.
 #include "pipeline/draw.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 
 #include "leave_out.h"
@@ -33,28 +35,41 @@ struct Counts
 template <bool several>
 struct AnyState
 {
-    static constexpr bool severalSamples = several;
+    static constexpr bool severalSamples = several, hasOneTarget = false;
     Compare depthTest;
-    bool usesDepth, depthWrite, discards, readsEdges, readsCentroids;
+    bool usesDepth, depthWrite, usesStencil;
+    bool decides;    // whether the program, or alpha, decides which pixels or samples are drawn
+    bool testsLate;  // and whether the tests need to know
+    bool readsEdges, readsCentroids;
+    const Outputs& outputs;
 
     AnyState(const Draw& draw, const Tile& tile)
         : depthTest(tile.hasDepth() ? draw.state.depthTest : Compare::always),
           usesDepth(tile.hasDepth() && (depthTest != Compare::always || draw.state.depthWrite)),
           depthWrite(tile.hasDepth() && draw.state.depthWrite),
-          discards(draw.programs->discards || draw.state.alphaToCoverage),
+          usesStencil(tile.hasStencil() && draw.state.stencil.isUsed()),
+          decides(draw.programs->discards || draw.state.alphaToCoverage || draw.programs->outputs.depth ||
+                  draw.programs->outputs.coverage),
+          testsLate(draw.programs->outputs.depth || (decides && usesStencil)),
           readsEdges(draw.programs->components > 0),
-          readsCentroids(draw.geometry.hasCentroid)
+          readsCentroids(draw.geometry.hasCentroid),
+          outputs(draw.programs->outputs)
     {
     }
-    bool isUsual() const { return depthTest == Compare::less && depthWrite && !discards && !readsCentroids; }
+    bool isUsual() const
+    {
+        return depthTest == Compare::less && depthWrite && !usesStencil && !decides && !readsCentroids &&
+               !outputs.more();
+    }
 };
 template <bool interpolates>
 struct UsualState
 {
-    static constexpr bool severalSamples = false;
+    static constexpr bool severalSamples = false, hasOneTarget = true;
     static constexpr Compare depthTest = Compare::less;
-    static constexpr bool usesDepth = true, depthWrite = true, discards = false, readsEdges = interpolates,
-                          readsCentroids = false;
+    static constexpr bool usesDepth = true, depthWrite = true, usesStencil = false, decides = false, testsLate = false,
+                          readsEdges = interpolates, readsCentroids = false;
+    static constexpr Outputs outputs = {1, false, false};
 };
 
 // One triangle's way through a run of blocks: its edges at the pixels' centres, and at their samples, where there are
@@ -80,14 +95,53 @@ struct TriangleInTile
     }
 };
 
-// Writes the depth of a block's live pixels.
+// Whether bounds alone show that a triangle is behind all that they are of.
 template <class State>
-void writeDepth(const State& state, const TriangleWeights& triangle, bool isWhole, unsigned live, Float depth,
-                Float old, float* stored, DepthBounds& bounds)
+bool isBehind(const State& state, const TriangleWeights& triangle, const DepthBounds& bounds)
+{
+    return leavesOut::hidden && state.usesDepth && !state.usesStencil && !state.testsLate &&
+           isHidden(state.depthTest, triangle.nearest, triangle.farthest, bounds);
+}
+
+// Writes the depth of a block's live pixels, all of which lie between two depths.
+template <class State>
+void writeDepth(const State& state, const DepthBounds& between, bool isWhole, unsigned live, Float depth, Float old,
+                float* stored, DepthBounds& bounds)
 {
     if (!state.depthWrite || live == 0) return;
     select(Mask::fromBits(live), depth, old).store(stored);
-    updateBounds(state.depthTest, triangle.nearest, triangle.farthest, isWhole, bounds);
+    updateBounds(state.depthTest, between.nearest, between.farthest, isWhole, bounds);
+}
+
+DepthBounds depthsOf(const TriangleWeights& triangle)
+{
+    return {triangle.nearest, triangle.farthest};
+}
+
+// The stencil test, the depth test, and what both write, of one sample of a block's pixels. Returns the lanes that
+// pass.
+template <class State>
+[[gnu::noinline]] unsigned testStencilAndDepth(const State& state, const Stencil& stencil, bool isFront, unsigned lanes,
+                                               Float depth, const DepthBounds& between, int block, int sample,
+                                               Tile& tile)
+{
+    const StencilFace& face = isFront ? stencil.front : stencil.back;
+    std::int32_t* const words = state.usesStencil ? tile.stencil(sample) : nullptr;
+    const unsigned tested = lanes;
+    if (words != nullptr) lanes &= testStencil(stencil, face, Int::load(words)).bits();
+    const unsigned passed = lanes;
+    if (state.usesDepth) {
+        float* const stored = tile.depth(sample);
+        const Float old = Float::load(stored);
+        lanes &= compareBy(state.depthTest, depth, old).bits();
+        writeDepth(state, between, false, lanes, depth, old, stored, tile.bounds(block));
+    }
+    if (words != nullptr) {
+        stencilAfter(stencil, face, Int::load(words), Mask::fromBits(tested), Mask::fromBits(passed),
+                     Mask::fromBits(lanes))
+            .store(words);
+    }
+    return lanes;
 }
 
 // Not in a loop, in which g++ 12 would keep the values in memory.
@@ -112,29 +166,33 @@ void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsign
 // Before the program runs: which pixels pass the depth test. `inTile`: bounds of all blocks together. Their depth is
 // written here, too, unless the program may throw them away afterwards. Returns whether there is anything to shade.
 template <class State>
-bool testEarly(const State& state, const TriangleInTile<false>& triangle, const CoveredBlock& covered,
-               const SampleCoverage* /* the one sample's is the block's */, const DepthBounds& inTile,
-               ShadedBlock& block, Tile& tile, Counts& counts)
+bool testEarly(const State& state, const Stencil& stencil, bool isFront, const TriangleInTile<false>& triangle,
+               const CoveredBlock& covered, const SampleCoverage* /* the one sample's is the block's */,
+               const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
     const unsigned coverage = covered.coverage;
     counts.covered += static_cast<unsigned>(countBits(coverage));
-    const auto hidden = [&](const DepthBounds& bounds) {
-        return isHidden(state.depthTest, weights.nearest, weights.farthest, bounds);
-    };
-    if (leavesOut::hidden && state.usesDepth && (hidden(inTile) || hidden(tile.bounds(index)))) return false;
+    if (isBehind(state, weights, inTile) || isBehind(state, weights, tile.bounds(index))) return false;
     unsigned live = coverage;
-    if (state.usesDepth || state.readsEdges) {
+    if (state.usesDepth || state.usesStencil || state.readsEdges) {
         Float edge[3];
         triangle.edges.at(x, y, edge);
-        if (state.usesDepth) {
+        if (state.testsLate) {
+            // and all pixels are shaded
+        } else if (state.usesStencil) {
+            live = testStencilAndDepth(state, stencil, isFront, live, weights.depth(edge[1], edge[2]),
+                                       depthsOf(weights), index, index, tile);
+            if (leavesOut::hidden && live == 0) return false;
+        } else if (state.usesDepth) {
             float* const stored = tile.depth(index);
             const Float depth = weights.depth(edge[1], edge[2]), old = Float::load(stored);
-            live &= compareDepth(state.depthTest, depth, old).bits();
+            live &= compareBy(state.depthTest, depth, old).bits();
             if (leavesOut::hidden && live == 0) return false;
-            if (!state.discards)
-                writeDepth(state, weights, coverage == kAllLanes, live, depth, old, stored, tile.bounds(index));
+            if (!state.decides)
+                writeDepth(state, depthsOf(weights), coverage == kAllLanes, live, depth, old, stored,
+                           tile.bounds(index));
         }
         if (state.readsEdges) storeEdges(edge, block.edge);
         if (state.readsCentroids) storeEdges(edge, block.centroid);
@@ -145,17 +203,15 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
 
 // The same where a pixel has several samples, each with a depth of its own.
 template <class State>
-bool testEarly(const State& state, const TriangleInTile<true>& triangle, const CoveredBlock& covered,
-               const SampleCoverage* samples, const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
+bool testEarly(const State& state, const Stencil& stencil, bool isFront, const TriangleInTile<true>& triangle,
+               const CoveredBlock& covered, const SampleCoverage* samples, const DepthBounds& inTile,
+               ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
     DepthBounds& bounds = tile.bounds(index);
     counts.covered += static_cast<unsigned>(countBits(covered.coverage));
-    const auto hidden = [&](const DepthBounds& b) {
-        return isHidden(state.depthTest, weights.nearest, weights.farthest, b);
-    };
-    if (leavesOut::hidden && state.usesDepth && (hidden(inTile) || hidden(bounds))) return false;
+    if (isBehind(state, weights, inTile) || isBehind(state, weights, bounds)) return false;
     Float edge[3];
     triangle.edges.at(x, y, edge);
     storeEdges(edge, block.edge);
@@ -170,110 +226,138 @@ bool testEarly(const State& state, const TriangleInTile<true>& triangle, const C
         const Mask first = Mask::fromBits(lanes & ~placed);
         for (int k = 0; k < 3; ++k) select(first, edge[k], Float::load(block.centroid[k])).store(block.centroid[k]);
         placed |= lanes;
-        if (state.usesDepth) {
-            float* const stored = tile.depth(tile.sampleOf(index, s));
-            const Float depth = weights.depth(edge[1], edge[2]), old = Float::load(stored);
-            lanes &= compareDepth(state.depthTest, depth, old).bits();
-            if (!state.discards) writeDepth(state, weights, false, lanes, depth, old, stored, bounds);
+        const Float depth = weights.depth(edge[1], edge[2]);
+        const int sample = tile.sampleOf(index, s);
+        if (state.testsLate) {
+            // and all samples are shaded
+        } else if (!state.decides) {
+            lanes = testStencilAndDepth(state, stencil, isFront, lanes, depth, depthsOf(weights), index, sample, tile);
+        } else if (state.usesDepth) {
+            lanes &= compareBy(state.depthTest, depth, Float::load(tile.depth(sample))).bits();
         }
         block.liveSamples[static_cast<std::size_t>(s)] = static_cast<std::uint16_t>(lanes);
         live |= lanes;
     }
     if (leavesOut::hidden && live == 0) return false;
-    if (everywhere == kAllLanes && state.depthWrite && !state.discards)
+    if (everywhere == kAllLanes && state.depthWrite && !state.decides && !state.usesStencil)
         updateBounds(state.depthTest, weights.nearest, weights.farthest, true, bounds);
     setBlock(block, covered, index, live, counts);
     block.covered.coverage = static_cast<std::uint16_t>(inside);
     return true;
 }
 
-// Which of these lanes a discarding program has left, and whose alpha is enough for a sample: the first one takes the
-// least, and each one after it more.
+// Which of these lanes the program has left, and whose alpha is enough for a sample: the first one takes the least, and
+// each one after it more.
 unsigned keptLanes(const Draw& draw, const ShadedBlock& block, unsigned lanes, int sample, int count)
 {
     if (draw.programs->discards) lanes &= ~block.discarded;
+    if (draw.programs->outputs.coverage) lanes &= ((Int::load(block.more->coverage) & (1 << sample)) != 0).bits();
     if (!draw.state.alphaToCoverage) return lanes;
     const float least = (static_cast<float>(sample) + 0.5f) / static_cast<float>(count);
     return lanes & (Float::load(block.color[3]) >= least).bits();
 }
 
-// After the program: the depth of what is left is written now.
+// After the program: the tests that waited for it, or the depth of what is left. Returns the lanes that are drawn.
 template <class State>
-void writeDepthLate(const State& state, const TriangleWeights& weights, const TriangleEdges& edges,
-                    const ShadedBlock& block, unsigned lanes, float* stored, Tile& tile)
+unsigned testLate(const State& state, const Draw& draw, bool isFront, const TriangleWeights& weights,
+                  const TriangleEdges& edges, const ShadedBlock& block, unsigned lanes, int sample, Tile& tile)
 {
+    if (!state.usesDepth && !state.testsLate) return lanes;
     Float edge[3];
     edges.at(block.covered.x, block.covered.y, edge);
-    writeDepth(state, weights, false, lanes, weights.depth(edge[1], edge[2]), Float::load(stored), stored,
-               tile.bounds(block.index));
+    Float depth = weights.depth(edge[1], edge[2]);
+    DepthBounds between = depthsOf(weights);
+    if (state.outputs.depth) {
+        depth = saturate(Float::load(block.more->depth));
+        between = {0.0f, 1.0f};
+    }
+    if (state.testsLate)
+        return testStencilAndDepth(state, draw.state.stencil, isFront, lanes, depth, between, block.index, sample,
+                                   tile);
+    float* const stored = tile.depth(sample);
+    writeDepth(state, between, false, lanes, depth, Float::load(stored), stored, tile.bounds(block.index));
+    return lanes;
 }
 template <class State>
-void testLate(const State& state, const Draw& draw, const TriangleInTile<false>& triangle, ShadedBlock& block,
-              Tile& tile)
+void testLate(const State& state, const Draw& draw, bool isFront, const TriangleInTile<false>& triangle,
+              ShadedBlock& block, Tile& tile)
 {
-    block.live = keptLanes(draw, block, block.live, 0, 1);
-    if (state.usesDepth)
-        writeDepthLate(state, triangle.weights, triangle.edges, block, block.live, tile.depth(block.index), tile);
+    const unsigned lanes = keptLanes(draw, block, block.live, 0, 1);
+    block.live = testLate(state, draw, isFront, triangle.weights, triangle.edges, block, lanes, block.index, tile);
 }
 template <class State>
-void testLate(const State& state, const Draw& draw, const TriangleInTile<true>& triangle, ShadedBlock& block,
-              Tile& tile)
+void testLate(const State& state, const Draw& draw, bool isFront, const TriangleInTile<true>& triangle,
+              ShadedBlock& block, Tile& tile)
 {
     block.live = 0;
     for (int s = 0; s < tile.samples().count; ++s) {
-        std::uint16_t& lanes = block.liveSamples[static_cast<std::size_t>(s)];
-        lanes = static_cast<std::uint16_t>(keptLanes(draw, block, lanes, s, tile.samples().count));
+        const auto number = static_cast<std::size_t>(s);
+        const unsigned kept = keptLanes(draw, block, block.liveSamples[number], s, tile.samples().count);
+        const unsigned lanes = testLate(state, draw, isFront, triangle.weights, triangle.sampleEdges[number], block,
+                                        kept, tile.sampleOf(block.index, s), tile);
+        block.liveSamples[number] = static_cast<std::uint16_t>(lanes);
         block.live |= lanes;
-        if (state.usesDepth) {
-            writeDepthLate(state, triangle.weights, triangle.sampleEdges[static_cast<std::size_t>(s)], block, lanes,
-                           tile.depth(tile.sampleOf(block.index, s)), tile);
-        }
     }
 }
 
-// Calls merge(words, live lanes) for each sample of a block.
+// Calls merge(words, live lanes) for each sample of a block; `plane` are the target's words.
 template <Format format, bool severalSamples, class Merge>
-void forSamples(Tile& tile, const ShadedBlock& block, const Merge& merge)
+void forSamples(const Tile& tile, std::int32_t* plane, const ShadedBlock& block, const Merge& merge)
 {
+    const auto wordsOf = [plane](int sample) {
+        return plane + static_cast<std::ptrdiff_t>(sample) * (kLanes * wordsPerPixel(format));
+    };
     if constexpr (severalSamples) {
         for (int s = 0; s < tile.samples().count; ++s)
-            merge(tile.color<format>(tile.sampleOf(block.index, s)), block.liveSamples[static_cast<std::size_t>(s)]);
+            merge(wordsOf(tile.sampleOf(block.index, s)), block.liveSamples[static_cast<std::size_t>(s)]);
     } else {
-        merge(tile.color<format>(block.index), block.live);
+        merge(wordsOf(block.index), block.live);
     }
 }
 
-template <Format format, bool severalSamples>
-void mergeBlocks(std::span<const ShadedBlock> blocks, Blend blend, Tile& tile, Counts& counts)
+// What the program gives one of the targets.
+const Channels& colorOf(const ShadedBlock& block, int target)
 {
+    return target == 0 ? block.color : block.more->color[target - 1];
+}
+
+// Returns how many pixels had a NaN or an infinity. By itself, so that its numbers stay in registers.
+template <Format format, bool severalSamples>
+[[gnu::noinline, gnu::flatten]] unsigned mergeBlocks(std::span<const ShadedBlock> blocks, int target, Blend blend,
+                                                     Tile& tile)
+{
+    std::int32_t* const plane = tile.color<format>(target, 0);
+    unsigned allInvalid = 0;
     const auto forEach = [&](const auto& merge) {
-        for (const ShadedBlock& block : blocks) counts.invalid += static_cast<unsigned>(merge(block));
+        for (const ShadedBlock& block : blocks) allInvalid += static_cast<unsigned>(merge(block));
     };
     if (blend == Blend::off) {
         ColorWriter<format> writer;
         forEach([&](const ShadedBlock& block) {
-            const int invalid = writer.set(block.color, block.live);
-            forSamples<format, severalSamples>(tile, block,
+            const int invalid = writer.set(colorOf(block, target), block.live);
+            forSamples<format, severalSamples>(tile, plane, block,
                                                [&](std::int32_t* words, unsigned live) { writer.store(words, live); });
             return invalid;
         });
     } else {
         forEach([&](const ShadedBlock& block) {
-            float4 color = loadChannels(block.color);
+            float4 color = loadChannels(colorOf(block, target));
             const int invalid = sanitizeColor(color, Mask::fromBits(block.live));
-            forSamples<format, severalSamples>(tile, block, [&](std::int32_t* words, unsigned live) {
+            forSamples<format, severalSamples>(tile, plane, block, [&](std::int32_t* words, unsigned live) {
                 blendInto<format>(words, blend, color, Mask::fromBits(live));
             });
             return invalid;
         });
     }
+    return allInvalid;
 }
 
 TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Triangle& triangle)
 {
-    return {{componentsOf(draw.geometry, chunk, triangle.vertex[0]),
-             componentsOf(draw.geometry, chunk, triangle.vertex[1]),
-             componentsOf(draw.geometry, chunk, triangle.vertex[2])}};
+    return {
+        {componentsOf(draw.geometry, chunk, triangle.vertex[0]), componentsOf(draw.geometry, chunk, triangle.vertex[1]),
+         componentsOf(draw.geometry, chunk, triangle.vertex[2])},
+        isFront(draw.geometry, triangle)};
 }
 
 template <class State>
@@ -282,12 +366,17 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
                    Counts& counts)
 {
     constexpr bool severalSamples = State::severalSamples;
-    const bool runsProgram = tile.hasColor() || state.discards;
-    const std::size_t groupSize = state.discards ? 1 : kBlocksPerGroup;
+    const unsigned targets = draw.state.colorWrite ? state.outputs.targets & tile.colors() : 0;
+    const bool runsProgram = targets != 0 || state.decides;
+    const std::size_t groupSize = state.decides ? 1 : kBlocksPerGroup;
     const bool isLarge = static_cast<int>(blocks.size()) >= kBlocksOfLargeTriangle * countBits(batch.visible);
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const DepthBounds inTile = isLarge ? tile.wholeBounds() : DepthBounds{-infinity, infinity};
     std::array<ShadedBlock, kBlocksPerGroup> group;
+    std::array<MoreOutputs, State::hasOneTarget ? 0 : kBlocksPerGroup> more;
+    if constexpr (!State::hasOneTarget) {
+        for (std::size_t i = 0; i < groupSize; ++i) group[i].more = &more[i];
+    }
     std::array<TriangleCorners, kLanes> corners;
     TriangleInTile<severalSamples> triangle(batch, blocks.front().triangle);
     corners[static_cast<std::size_t>(triangle.lane)] = cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
@@ -300,17 +389,26 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
                     cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
             }
             const SampleCoverage* of = severalSamples ? samples + (next - blocks.begin()) : nullptr;
-            if (testEarly(state, triangle, *next, of, inTile, *free, tile, counts)) ++free;
+            if (testEarly(state, draw.state.stencil, corners[static_cast<std::size_t>(triangle.lane)].isFront, triangle,
+                          *next, of, inTile, *free, tile, counts))
+                ++free;
         }
         const std::span<ShadedBlock> shaded(group.data(), free);
         counts.blocks += static_cast<unsigned>(shaded.size());
         if (!runsProgram || shaded.empty()) continue;
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), shaded, batch, corners.data());
-        if (state.discards) testLate(state, draw, triangle, group[0], tile);
-        if (!tile.hasColor()) continue;
-        withFormat(tile.colorFormat(), [&]<Format format>() {
-            mergeBlocks<format, severalSamples>(shaded, draw.state.blend, tile, counts);
-        });
+        if (state.decides)
+            testLate(state, draw, corners[static_cast<std::size_t>(triangle.lane)].isFront, triangle, group[0], tile);
+        const auto merge = [&](int target) {
+            withFormat(tile.colorFormat(target), [&]<Format format>() {
+                counts.invalid += mergeBlocks<format, severalSamples>(shaded, target, draw.state.blend, tile);
+            });
+        };
+        if constexpr (State::hasOneTarget) {
+            if (targets != 0) merge(0);
+        } else {
+            for (unsigned rest = targets; rest != 0; rest &= rest - 1) merge(std::countr_zero(rest));
+        }
     }
     if (!state.depthWrite) return;
     updateBounds(state.depthTest, 0.0f, 1.0f, false, tile.wholeBounds());  // whatever was written

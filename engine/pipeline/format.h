@@ -79,7 +79,7 @@ std::array<Int, static_cast<std::size_t>(wordsPerPixel(format))> encodeColor(con
     if constexpr (format == Format::rgba16f)
         return {toHalf(color.x) | toHalf(color.y) << 16, toHalf(color.z) | toHalf(color.w) << 16};
     if constexpr (format == Format::rgba32f) return {asInt(color.x), asInt(color.y), asInt(color.z), asInt(color.w)};
-    if constexpr (format == Format::r32f || format == Format::depth32f) return {asInt(color.x)};
+    if constexpr (format == Format::r32f || !isColor(format)) return {asInt(color.x)};
 }
 
 // Back again. What a format does not have is (0, 0, 0, 1).
@@ -93,7 +93,7 @@ float4 decodeColor(const std::array<Int, static_cast<std::size_t>(wordsPerPixel(
                 fromHalf(shiftRightLogical(words[1], 16))};
     if constexpr (format == Format::rgba32f)
         return {asFloat(words[0]), asFloat(words[1]), asFloat(words[2]), asFloat(words[3])};
-    if constexpr (format == Format::r32f || format == Format::depth32f)
+    if constexpr (format == Format::r32f || !isColor(format))
         return {asFloat(words[0]), Float(0.0f), Float(0.0f), Float(1.0f)};
 }
 
@@ -112,6 +112,8 @@ auto withFormat(Format format, const Function& function)
             return function.template operator()<Format::r32f>();
         case Format::rgba32f:
             return function.template operator()<Format::rgba32f>();
+        case Format::stencil8:
+            return function.template operator()<Format::stencil8>();
         case Format::depth32f:
             break;
     }

@@ -90,11 +90,24 @@ void Frame::clear(const glm::vec4& color, float depth)
 {
     clearColor(color);
     clearDepth(depth);
+    clearStencil(0);
 }
 
 void Frame::clearColor(const glm::vec4& color)
 {
-    storage->clear.color = {finite(color.x, 0.0f), finite(color.y, 0.0f), finite(color.z, 0.0f), finite(color.w, 0.0f)};
+    for (int target = 0; target < kMaxColors; ++target) clearColor(target, color);
+}
+
+void Frame::clearColor(int target, const glm::vec4& color)
+{
+    if (target < 0 || target >= kMaxColors) return;
+    storage->clear.color[static_cast<std::size_t>(target)] = {finite(color.x, 0.0f), finite(color.y, 0.0f),
+                                                              finite(color.z, 0.0f), finite(color.w, 0.0f)};
+}
+
+void Frame::clearStencil(std::uint8_t stencil)
+{
+    storage->clear.stencil = stencil;
 }
 
 void Frame::clearDepth(float depth)
@@ -136,6 +149,7 @@ Expected<void> Frame::record(const Programs& programs, const void* vertexProgram
     DrawGeometry& g = draw->geometry;
     g.viewport = s.viewport;
     g.bounds = intersect({0, 0, s.target.width(), s.target.height()}, intersect(s.scissor, pixelsOf(s.viewport)));
+    g.frontCounterClockwise = s.frontCounterClockwise;
     if (s.frontCounterClockwise && g.cull != Cull::none) g.cull = g.cull == Cull::back ? Cull::front : Cull::back;
     g.drawIndex = static_cast<std::uint32_t>(s.draws.size());
 
@@ -192,11 +206,14 @@ Statistics Frame::Storage::run()
 Clear Frame::Storage::clearOf(const TargetMemory& memory) const
 {
     Clear all = clear;
+    std::size_t colors = 0;
     for (std::size_t i = 0; i < memory.words.size(); ++i) {
+        const Format format = memory.attachments[i].format;
+        const std::size_t color = isColor(format) ? colors++ : 0;
         if (memory.words[i] != nullptr) continue;
-        const bool isDepth = memory.attachments[i].format == Format::depth32f;
-        if (isDepth && !all.depth) all.depth = 1.0f;
-        if (!isDepth && !all.color) all.color = glm::vec4(0.0f);
+        if (isColor(format) && !all.color[color]) all.color[color] = glm::vec4(0.0f);
+        if (format == Format::depth32f && !all.depth) all.depth = 1.0f;
+        if (format == Format::stencil8 && !all.stencil) all.stencil = std::uint8_t{0};
     }
     return all;
 }
@@ -314,7 +331,7 @@ void Frame::Storage::drawTile(const Part& part, int tileIndex, Worker& worker)
     std::vector<std::int32_t>& before = betweenParts[tile];
     const bool isNew = before.empty();
     if (!isTouched && !part.isLast) return;
-    if (!isTouched && isNew && !part.clear.color && !part.clear.depth) return;
+    if (!isTouched && isNew && !part.clear.isAny()) return;
 
     const Rectangle pixels = tilePixels(tileIndex);
     if (leavesOut::tiles && !isTouched && isNew) return clearRectangle(part.memory, pixels, part.clear);
@@ -344,12 +361,12 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
     const std::uint32_t last = chunk.binStart[tile + 1];
     for (std::uint32_t next = chunk.binStart[tile]; next < last;) {
         // The next triangles, as far as they are of one draw.
-        const std::uint32_t drawIndex = chunk.triangles[chunk.sorted[next]].drawIndex;
+        const std::uint32_t drawIndex = chunk.triangles[chunk.sorted[next]].drawIndex();
         const Triangle* triangles[kLanes];
         std::size_t count = 0;
         for (; count < kLanes && next < last; ++count, ++next) {
             triangles[count] = &chunk.triangles[chunk.sorted[next]];
-            if (triangles[count]->drawIndex != drawIndex) break;
+            if (triangles[count]->drawIndex() != drawIndex) break;
         }
         const Draw& draw = draws[drawIndex];
         // Triangles of a bin lie anywhere in the chunk: the ones after these are asked for in time.

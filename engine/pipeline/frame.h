@@ -25,11 +25,14 @@ public:
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
 
-    // The target's content before the first draw. What is not cleared is drawn onto as it is; depth that the target
-    // does not keep is 1 then. Colour is linear.
+    // The target's content before the first draw: all of it, with a stencil of 0; or the colours, all or the one of
+    // SV_Target<target>, the depth, the stencil alone. What is not cleared is drawn onto as it is; what the target does
+    // not keep is 0 then, and its depth 1. Colour is linear.
     void clear(const glm::vec4& color, float depth = 1.0f);
     void clearColor(const glm::vec4& color);
+    void clearColor(int target, const glm::vec4& color);
     void clearDepth(float depth = 1.0f);
+    void clearStencil(std::uint8_t stencil = 0);
 
     // Where the next draws go: the whole target by default. The viewport may lie partly outside of the target; width
     // and height are limited to 16384. The scissor cuts off pixels and moves nothing.

@@ -9,16 +9,28 @@ namespace relief {
 
 namespace {
 
-bool isDepth(const Attachment& attachment)
+bool isDepth(Format format)
 {
-    return attachment.format == Format::depth32f;
+    return format == Format::depth32f;
+}
+bool isStencil(Format format)
+{
+    return format == Format::stencil8;
 }
 
-int find(const std::vector<Attachment>& attachments, bool depth)
+// The n-th attachment, counted from 0, that `is` says; -1 where there are not so many.
+template <class Is>
+int find(const std::vector<Attachment>& attachments, int n, const Is& is)
 {
-    const auto found = std::find_if(attachments.begin(), attachments.end(),
-                                    [depth](const Attachment& a) { return isDepth(a) == depth; });
-    return found == attachments.end() ? -1 : static_cast<int>(found - attachments.begin());
+    for (std::size_t i = 0; i < attachments.size(); ++i) {
+        if (is(attachments[i].format) && n-- == 0) return static_cast<int>(i);
+    }
+    return -1;
+}
+
+std::string countOf(int number, const char* what)
+{
+    return std::to_string(number) + " " + what;
 }
 
 }  // namespace
@@ -30,11 +42,15 @@ Expected<Framebuffer> Framebuffer::create(int width, int height, const std::vect
     if (width < 1 || height < 1 || width > kMaxTargetSize || height > kMaxTargetSize) {
         return fail(size + " is not possible: width and height must be 1 to " + std::to_string(kMaxTargetSize));
     }
-    const auto depths = std::count_if(attachments.begin(), attachments.end(), isDepth);
-    const auto colors = static_cast<std::ptrdiff_t>(attachments.size()) - depths;
-    if (attachments.empty() || depths > 1 || colors > 1) {
-        return fail("a target of " + std::to_string(colors) + " colour and " + std::to_string(depths) +
-                    " depth attachments is not possible: give it one of either kind, or one of each");
+    const auto numberOf = [&](const auto& is) {
+        return static_cast<int>(
+            std::count_if(attachments.begin(), attachments.end(), [&](const Attachment& a) { return is(a.format); }));
+    };
+    const int colors = numberOf(isColor), depths = numberOf(isDepth), stencils = numberOf(isStencil);
+    if (attachments.empty() || colors > kMaxColors || depths > 1 || stencils > 1) {
+        return fail("a target of " + countOf(colors, "colour, ") + countOf(depths, "depth and ") +
+                    countOf(stencils, "stencil attachments is not possible: give it at most ") +
+                    std::to_string(kMaxColors) + ", 1 and 1, and at least one of them");
     }
     if (samplePattern(samples) == nullptr) {
         return fail("a target with " + std::to_string(samples) +
@@ -94,13 +110,17 @@ std::size_t Framebuffer::wordCount(int attachment) const
            static_cast<std::size_t>(wordsPerPixel(a.format));
 }
 
-int Framebuffer::colorIndex() const
+int Framebuffer::colorIndex(int n) const
 {
-    return find(mAttachments, false);
+    return find(mAttachments, n, isColor);
 }
 int Framebuffer::depthIndex() const
 {
-    return find(mAttachments, true);
+    return find(mAttachments, 0, isDepth);
+}
+int Framebuffer::stencilIndex() const
+{
+    return find(mAttachments, 0, isStencil);
 }
 
 std::span<std::uint32_t> Framebuffer::words(int attachment)
@@ -165,6 +185,15 @@ std::span<float> Framebuffer::depth()
 std::span<const float> Framebuffer::depth() const
 {
     return pixels<const float>(Format::depth32f);
+}
+
+std::span<std::uint32_t> Framebuffer::stencil()
+{
+    return pixels<std::uint32_t>(Format::stencil8);
+}
+std::span<const std::uint32_t> Framebuffer::stencil() const
+{
+    return pixels<const std::uint32_t>(Format::stencil8);
 }
 
 bool Framebuffer::samePixels(const Framebuffer& other) const

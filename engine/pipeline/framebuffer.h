@@ -23,8 +23,14 @@ enum class Format
     rgba16f,    // halves: within +-65504, rounded to nearest
     r32f,       // red alone
     rgba32f,
-    depth32f
+    depth32f,
+    stencil8  // the low byte of a word
 };
+
+constexpr bool isColor(Format format)
+{
+    return format != Format::depth32f && format != Format::stencil8;
+}
 
 // 32-bit words of a pixel.
 constexpr int wordsPerPixel(Format format)
@@ -50,12 +56,12 @@ struct Attachment
 class Framebuffer
 {
 public:
-    // At most one colour and one depth attachment, in any order. Width and height 1 ... 16384. Colours are 0 at first,
-    // depths 1. An error for other sizes and lists, and where the memory cannot be had.
+    // At most four colour attachments, one depth and one stencil, in any order. Width and height 1 ... 16384. Colours
+    // and stencils are 0 at first, depths 1. An error for other sizes and lists, and where the memory cannot be had.
     //
     // Samples: 1, 2, 4 or 8 a pixel. More than one live in the tiles only, while they are drawn. What is kept of them
-    // is their mean, of colours in linear light, and the first one's depth. A frame that does not clear begins with all
-    // samples of a pixel the same.
+    // is their mean, of colours in linear light, and the first one's depth and stencil. A frame that does not clear
+    // begins with all samples of a pixel the same.
     static Expected<Framebuffer> create(int width, int height, const std::vector<Attachment>& attachments,
                                         int samples = 1);
 
@@ -74,25 +80,28 @@ public:
 
     const std::vector<Attachment>& attachments() const { return mAttachments; }
 
-    // The attachment of that kind, -1 where there is none.
-    int colorIndex() const;
+    // The attachment of that kind, -1 where there is none; of several colours the one that SV_Target<n> is written to.
+    int colorIndex(int n = 0) const;
     int depthIndex() const;
+    int stencilIndex() const;
 
     // An attachment's pixels, wordsPerPixel() each, row by row, no padding; empty where it is discarded.
     std::span<std::uint32_t> words(int attachment);
     std::span<const std::uint32_t> words(int attachment) const;
 
-    // The same as what they are. Empty where there is no such attachment, or it is discarded.
+    // The same as what they are; of several with this format the first. Empty where there is none, or it is discarded.
     std::span<std::uint32_t> color8();  // both 8-bit formats: R, G, B, A from the lowest byte up
     std::span<std::array<std::uint16_t, 4>> color16f();
     std::span<float> colorR32f();
     std::span<glm::vec4> color32f();
     std::span<float> depth();
+    std::span<std::uint32_t> stencil();
     std::span<const std::uint32_t> color8() const;
     std::span<const std::array<std::uint16_t, 4>> color16f() const;
     std::span<const float> colorR32f() const;
     std::span<const glm::vec4> color32f() const;
     std::span<const float> depth() const;
+    std::span<const std::uint32_t> stencil() const;
 
     // Whether all that is kept is equal, bit by bit.
     bool samePixels(const Framebuffer& other) const;

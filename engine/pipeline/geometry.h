@@ -2,6 +2,7 @@
 // ready to be binned.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -73,7 +74,8 @@ enum : std::uint16_t
     anyOutside = 63,
     beyondGuardBand = 64,
     smallW = 128,
-    mustClip = outsideNear | outsideFar | beyondGuardBand | smallW,
+    beyondOwnPlane = 1024,  // a negative SV_ClipDistance
+    mustClip = outsideNear | outsideFar | beyondGuardBand | smallW | beyondOwnPlane,
     nan = 256,
     infinite = 512,
 };
@@ -90,10 +92,12 @@ struct DrawGeometry
     std::uint32_t verticesPerInstance = 0;
     std::uint32_t firstVertex = 0;  // the mesh's vertex that an instance begins with
 
-    std::uint32_t componentCount = 0;               // words to interpolate per vertex
-    std::uint32_t componentStride = 0;              // and from one vertex to the next: a multiple of four
-    const Interpolation* interpolations = nullptr;  // componentCount of them
-    bool hasFlat = false, hasCentroid = false;      // any of them
+    std::uint32_t componentCount = 0;                             // words to interpolate per vertex
+    std::uint32_t componentStride = 0;                            // and from one vertex to the next: a multiple of four
+    const Interpolation* interpolations = nullptr;                // componentCount of them
+    bool hasFlat = false, hasCentroid = false;                    // any of them
+    std::array<std::uint8_t, kMaxClipDistances> clipDistances{};  // which components are SV_ClipDistance
+    int clipDistanceCount = 0;
 
     glm::vec4* clip = nullptr;       // per vertex
     ScreenVertex* screen = nullptr;  // per vertex
@@ -105,6 +109,7 @@ struct DrawGeometry
     Primitive primitive = Primitive::triangles;
     int lineWidth = 1;  // pixels
     Cull cull = Cull::back;
+    bool frontCounterClockwise = false;
     bool depthClip = true;
     int sampleReach = 0;  // of the target's samples from a pixel's centre
     std::uint32_t drawIndex = 0;
@@ -117,8 +122,13 @@ struct alignas(64) Triangle
     float z[3];
     float invW[3];
     std::uint32_t vertex[3];  // see componentsOf()
-    std::uint32_t drawIndex;
+    std::uint32_t drawWord;   // the draw's index, and kWasCounterClockwise
+
+    std::uint32_t drawIndex() const { return drawWord & 0x7fffffffu; }
 };
+
+// Of a triangle whose corners were swapped to be clockwise.
+inline constexpr std::uint32_t kWasCounterClockwise = 0x80000000u;
 
 inline constexpr std::uint32_t kClippedVertex = 0x80000000u;
 
@@ -150,6 +160,13 @@ inline const float* componentsOf(const DrawGeometry& draw, const TriangleChunk& 
 {
     if ((vertex & kClippedVertex) != 0) return chunk.clippedComponents.data() + (vertex & ~kClippedVertex);
     return draw.components + static_cast<std::size_t>(vertex) * draw.componentStride;
+}
+
+// Whether a triangle is seen from its front, as a line always is.
+inline bool isFront(const DrawGeometry& draw, const Triangle& triangle)
+{
+    const bool counterClockwise = (triangle.drawWord & kWasCounterClockwise) != 0;
+    return draw.primitive == Primitive::lines || counterClockwise == draw.frontCounterClockwise;
 }
 
 // The vertices that primitives first ... first + count - 1 are made of, `corners` each: the mesh's own indices, or, for

@@ -81,6 +81,10 @@ struct WatchedBlock
 void noteDepth(const WatchedBlock& b, unsigned lanes)
 {
     if (!b.draw.writesDepth) return;
+    if (b.draw.programs->outputs.depth) {
+        const Float depth = saturate(Float::load(b.block.more->depth));
+        return b.forPixels(lanes, [&](glm::vec4& pixel, int lane) { pixel.x = depth[lane]; });
+    }
     Float edge[3];
     b.edges(edge);
     TriangleWeights weights;
@@ -138,7 +142,7 @@ void noteMipLevels(const WatchedBlock& b, unsigned lanes)
 void noteTriangle(const WatchedBlock& b, unsigned lanes)
 {
     const Triangle& triangle = *b.batch.triangle[b.block.covered.triangle];
-    std::uint32_t hash = 2166136261u + triangle.drawIndex;
+    std::uint32_t hash = 2166136261u + triangle.drawIndex();
     for (int k = 0; k < 3; ++k) {
         for (const std::int32_t word : {triangle.x[k], triangle.y[k]}) {
             hash = (hash ^ static_cast<std::uint32_t>(word)) * 0x9e3779b1u;

@@ -38,7 +38,7 @@ std::vector<Sample> samplesOf(const Frame::Storage& s)
             const std::uint32_t first = chunk.binStart[static_cast<std::size_t>(tile)];
             if (first == chunk.binStart[static_cast<std::size_t>(tile) + 1]) continue;
             const Triangle& triangle = chunk.triangles[chunk.sorted[first]];
-            const Rectangle pixels = intersect(s.tilePixels(tile), s.draws[triangle.drawIndex].geometry.bounds);
+            const Rectangle pixels = intersect(s.tilePixels(tile), s.draws[triangle.drawIndex()].geometry.bounds);
             const Triangle* const one[] = {&triangle};
             TriangleBatch batch;
             batch.set(one, pixels);
@@ -57,6 +57,7 @@ float shadeSample(const Draw& draw, const Sample& sample, std::uint64_t times)
     TriangleEdges edges;
     edges.set(batch, 0);
     TriangleCorners corners;
+    corners.isFront = isFront(draw.geometry, *sample.triangle);
     for (int k = 0; k < 3; ++k)
         corners.components[k] = componentsOf(draw.geometry, *sample.chunk, sample.triangle->vertex[k]);
     ShadedBlock block;
@@ -70,6 +71,8 @@ float shadeSample(const Draw& draw, const Sample& sample, std::uint64_t times)
     }
     std::array<ShadedBlock, 16> group;
     group.fill(block);
+    std::array<MoreOutputs, 16> more;
+    for (std::size_t i = 0; i < group.size(); ++i) group[i].more = &more[i];
     float sum = 0.0f;
     for (std::uint64_t rest = times; rest > 0;) {
         const std::size_t n = std::min<std::uint64_t>(rest, group.size());
@@ -122,7 +125,7 @@ float shadeAlone(const Frame& frame, std::uint64_t blocks)
     for (std::size_t i = 0; i < samples.size(); ++i) {
         // Shares that add up to `blocks`.
         const std::uint64_t times = blocks * (i + 1) / samples.size() - blocks * i / samples.size();
-        sum += shadeSample(s.draws[samples[i].triangle->drawIndex], samples[i], times);
+        sum += shadeSample(s.draws[samples[i].triangle->drawIndex()], samples[i], times);
     }
     return sum;
 }

@@ -208,10 +208,12 @@ struct CornerComponents
 };
 
 // Fills in a fragment program's input. What the program does not read, the compiler leaves out. `centroid` holds the
-// edge functions at the centroids: the pixels' centres, where a pixel has one sample.
+// edge functions at the centroids: the pixels' centres, where a pixel has one sample. `isFront`: whether the triangle
+// is seen from its front.
 template <class Interpolators, int components>
 Interpolators interpolate(const TriangleWeights& triangle, const CornerComponents<components>& corners,
-                          const Float (&edge)[3], const Float (&centroid)[3], unsigned covered, int x, int y)
+                          const Float (&edge)[3], const Float (&centroid)[3], bool isFront, unsigned covered, int x,
+                          int y)
 {
     const BlockWeights w = triangle.of(edge, covered);
     BlockWeights atCentroid;
@@ -224,6 +226,8 @@ Interpolators interpolate(const TriangleWeights& triangle, const CornerComponent
             field.y = Float(laneYs() + y) + 0.5f;
             field.z = triangle.positionZ(edge, covered);
             field.w = triangle.clipW(w);
+        } else if constexpr (Field::kSystemValue == SystemValue::facing) {
+            field = Field(Mask(isFront));
         } else {
             for (int c = 0; c < kComponents<typename Field::Value>; ++c, ++slot) {
                 constexpr Interpolation how = Field::kInterpolation;

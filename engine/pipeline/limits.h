@@ -46,6 +46,10 @@ inline constexpr std::uint32_t kPrimitivesPerCount = 256;
 // Threads that a frame runs on.
 inline constexpr int kMaxThreads = 256;
 
+// Colour attachments of a target that a draw can write, and planes that a vertex program can clip at.
+inline constexpr int kMaxColors = 4;
+inline constexpr int kMaxClipDistances = 8;
+
 // The interpolated components (floats) of one vertex: D3D's 32 registers of four.
 inline constexpr int kMaxComponents = 128;
 

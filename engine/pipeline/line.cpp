@@ -55,7 +55,7 @@ bool append(const DrawGeometry& draw, std::array<Corner, 3> corners, const End& 
         t.invW[k] = s.invW;
         t.vertex[k] = corners[k].end->vertex;
     }
-    t.drawIndex = draw.drawIndex;
+    t.drawWord = draw.drawIndex;
     const Rectangle pixels = sampleBounds(t, draw.bounds, draw.sampleReach);
     if (pixels.x0 >= pixels.x1 || pixels.y0 >= pixels.y1) return false;
     chunk.triangles.push_back(t);
@@ -85,8 +85,6 @@ void setUpLines(const DrawGeometry& draw, std::uint32_t first, std::uint32_t cou
                 Statistics& statistics)
 {
     statistics.trianglesSubmitted += count;
-    const ViewportTransform transform(draw.viewport);
-    const ClipLimits limits = {transform.inverseGuardX, transform.inverseGuardY, draw.depthClip};
     for (std::uint32_t i = first; i < first + count; ++i) {
         std::uint32_t room[2];
         const std::uint32_t* vertex = cornersOf(draw, i, 1, 2, room);
@@ -108,7 +106,7 @@ void setUpLines(const DrawGeometry& draw, std::uint32_t first, std::uint32_t cou
             ++statistics.trianglesClipped;
             const glm::vec4 positions[2] = {draw.clip[vertex[0]], draw.clip[vertex[1]]};
             ClipVertex clipped[2];
-            if (!clipLine(positions, limits, clipped)) {
+            if (!clipLine(positions, clipLimits(draw, {vertex[0], vertex[1], vertex[1]}), clipped)) {
                 ++statistics.outside;
                 continue;
             }

@@ -8,7 +8,9 @@
 
 namespace relief::inline RELIEF_WIDTH {
 
-inline Mask compareDepth(Compare compare, Float z, Float stored)
+// Depths, or stencils: floats or integers.
+template <class T>
+Mask compareBy(Compare compare, T z, T stored)
 {
     switch (compare) {
         case Compare::never:
@@ -29,6 +31,49 @@ inline Mask compareDepth(Compare compare, Float z, Float stored)
             break;
     }
     return Mask(true);
+}
+
+// What an operation makes of 8-bit stencils.
+inline Int operate(StencilOp op, Int old, int reference)
+{
+    switch (op) {
+        case StencilOp::keep:
+            break;
+        case StencilOp::zero:
+            return 0;
+        case StencilOp::replace:
+            return reference;
+        case StencilOp::incrementClamp:
+            return min(old + 1, Int(255));
+        case StencilOp::decrementClamp:
+            return max(old - 1, Int(0));
+        case StencilOp::invert:
+            return old ^ 255;
+        case StencilOp::incrementWrap:
+            return (old + 1) & 255;
+        case StencilOp::decrementWrap:
+            return (old - 1) & 255;
+    }
+    return old;
+}
+
+// Which pixels pass the stencil test.
+inline Mask testStencil(const Stencil& state, const StencilFace& face, Int stored)
+{
+    return compareBy(face.test, Int(state.reference & state.readMask), stored & state.readMask);
+}
+
+// What is stored after both tests: `tested` pixels took part, `passed` the stencil test, `drawn` the depth test, too.
+inline Int stencilAfter(const Stencil& state, const StencilFace& face, Int stored, Mask tested, Mask passed, Mask drawn)
+{
+    Int result = stored;
+    const auto apply = [&](StencilOp op, Mask where) {
+        result = select(where, operate(op, stored, state.reference), result);
+    };
+    apply(face.fail, tested & !passed);
+    apply(face.depthFail, passed & !drawn);
+    apply(face.pass, drawn);
+    return (stored & (255 - state.writeMask)) | (result & state.writeMask);
 }
 
 // Whether the bounds alone show that no pixel of a triangle between the two depths can pass.

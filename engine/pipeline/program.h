@@ -1,7 +1,7 @@
 // A draw's two programs as the pipeline sees them: tables made from their structs, and two functions that run them on
 // lanes. This is all that is compiled with a program. Everything else of the pipeline is compiled once, in the engine.
 //
-//     VertexData  ->  vertex program  ->  Interpolators  ->  fragment program  ->  float4
+//     VertexData  ->  vertex program  ->  Interpolators  ->  fragment program  ->  float4, or a struct of outputs
 #pragma once
 
 #include <memory>
@@ -35,6 +35,14 @@ struct VertexLanes
     Float components[kMaxComponents];
 };
 
+// What a fragment program gives beside the colour of target 0. Only what its struct has is written.
+struct MoreOutputs
+{
+    alignas(Float) float color[kMaxColors - 1][4][kLanes];  // of targets 1 ... 3
+    alignas(Float) float depth[kLanes];
+    alignas(Float) std::int32_t coverage[kLanes];
+};
+
 // A block of pixels that a fragment program runs on. Lanes lie here as plain numbers, to be loaded and stored one
 // vector at a time: g++ 12 would copy a struct of them in smaller pieces, which the next load of a whole vector has to
 // wait for.
@@ -42,7 +50,8 @@ struct ShadedBlock
 {
     alignas(Float) float edge[3][kLanes];      // the edge functions at its pixels, if there is anything to interpolate
     alignas(Float) float centroid[3][kLanes];  // and at their centroids, if the program asks for them
-    alignas(Float) float color[4][kLanes];     // what the program gives
+    alignas(Float) float color[4][kLanes];     // what the program gives target 0
+    MoreOutputs* more;                         // room for what else it gives, if it does
     unsigned discarded;                        // what it throws away, a bit per lane
     unsigned live;                             // pixels whose result counts
     unsigned quads;                            // those with such a pixel, whole
@@ -51,10 +60,11 @@ struct ShadedBlock
     SampleCoverage liveSamples;                // where a pixel has several: of each, the lanes where it counts
 };
 
-// The components of a triangle's three corners.
+// The components of a triangle's three corners, and which side of it is seen.
 struct TriangleCorners
 {
     const float* components[3];
+    bool isFront;
 };
 
 // A copy of a program, or anything else, whose type is forgotten; and how to make one.
@@ -68,11 +78,21 @@ struct ProgramCopier
     ErasedProgram operator()(const void* program) const { return {copy(program), destroy}; }
 };
 
+// What a fragment program gives.
+struct Outputs
+{
+    unsigned targets;  // a bit for each colour
+    bool depth, coverage;
+
+    bool more() const { return targets > 1 || depth || coverage; }
+};
+
 struct Programs
 {
     Fields vertexData, interpolators;
     int components;  // to interpolate: all but SV_POSITION's
     bool discards;
+    Outputs outputs;
     ProgramCopier copyVertexProgram, copyFragmentProgram;
 
     void (*shadeVertices)(const void* vertexProgram, VertexLanes& vertices);
@@ -84,12 +104,93 @@ struct Programs
 
 namespace detail {
 
-// Whether a fragment program can be called with these, and gives a colour.
-template <class FragmentProgram, class... Arguments>
-concept Shades = requires(const FragmentProgram& program, Arguments&&... arguments, void (&take)(float4))
+// What can be taken as a float4.
+template <class T>
+concept IsColor = requires(T&& value, void (&take)(float4))
 {
-    take(program(static_cast<Arguments&&>(arguments)...));
+    take(static_cast<T&&>(value));
 };
+
+// That, or a struct of SV_Target<n>, SV_Depth, SV_Coverage: at least one of them.
+template <class T>
+constexpr bool isColorOrOutputs()
+{
+    if constexpr (IsColor<T>) {
+        return true;
+    } else if constexpr (!std::is_class_v<T>) {
+        return false;
+    } else if constexpr (fieldCount<T>() <= 0) {
+        return false;
+    } else {
+        using Fields = FieldsOf<T>;
+        return meanOnly<SystemValue::target, SystemValue::depth, SystemValue::coverage>(Fields{}) &&
+               !namesTwice(Fields{}) && indicesWith<SystemValue::target>(Fields{}) < 1u << kMaxColors;
+    }
+}
+
+// What a fragment program gives, and whether it may throw pixels away; void if it is none for these Interpolators.
+template <class Given, bool throwsAway>
+struct FragmentTypes
+{
+    using Result = Given;
+    static constexpr bool kDiscards = throwsAway;
+};
+template <class FragmentProgram, class Interpolators>
+auto fragmentTypes()
+{
+    // clang-format off
+    if constexpr (requires(const FragmentProgram& p, Interpolators&& i, Discard& d) { p(static_cast<Interpolators&&>(i), d); }) {
+        return FragmentTypes<decltype(std::declval<const FragmentProgram&>()(std::declval<Interpolators>(), std::declval<Discard&>())), true>{};
+    } else if constexpr (requires(const FragmentProgram& p, Interpolators&& i) { p(static_cast<Interpolators&&>(i)); }) {
+        return FragmentTypes<decltype(std::declval<const FragmentProgram&>()(std::declval<Interpolators>())), false>{};
+    } else {
+        return FragmentTypes<void, false>{};
+    }
+    // clang-format on
+}
+template <class FragmentProgram, class Interpolators>
+using FragmentTypesOf = decltype(fragmentTypes<FragmentProgram, Interpolators>());
+
+template <class Result>
+constexpr Outputs outputsOf()
+{
+    if constexpr (IsColor<Result>) {
+        return {1, false, false};
+    } else {
+        using Fields = FieldsOf<Result>;
+        return {indicesWith<SystemValue::target>(Fields{}), componentsWith<SystemValue::depth>(Fields{}) > 0,
+                componentsWith<SystemValue::coverage>(Fields{}) > 0};
+    }
+}
+
+inline void storeColor(const float4& color, float (&to)[4][kLanes])
+{
+    color.x.store(to[0]);
+    color.y.store(to[1]);
+    color.z.store(to[2]);
+    color.w.store(to[3]);
+}
+
+// What a fragment program gives for a block.
+template <class Result>
+void storeOutputs(Result&& result, ShadedBlock& block)
+{
+    if constexpr (IsColor<Result>) {
+        storeColor(result, block.color);
+    } else {
+        forEachField(result, [&block]<class Field>(Field& field) {
+            if constexpr (Field::kSystemValue == SystemValue::depth) {
+                static_cast<const Float&>(field).store(block.more->depth);
+            } else if constexpr (Field::kSystemValue == SystemValue::coverage) {
+                static_cast<const Int&>(field).store(block.more->coverage);
+            } else if constexpr (Field::kIndex == 0) {
+                storeColor(field, block.color);
+            } else {
+                storeColor(field, block.more->color[Field::kIndex - 1]);
+            }
+        });
+    }
+}
 
 // A live compile (samples/live) inlines less: g++ then takes half the time, and the bits are the same.
 #if !defined(RELIEF_FLATTEN)
@@ -111,7 +212,7 @@ RELIEF_FLATTEN void shadeVertices(const void* vertexProgram, VertexLanes& vertic
     forEachField(result, [&]<class F>(F& value) {
         if constexpr (F::kIsPosition) {
             vertices.position = value;
-        } else {
+        } else if constexpr (F::kIsInterpolated) {
             for (int c = 0; c < kComponents<typename F::Value>; ++c)
                 vertices.components[slot++] = wordOf(component(static_cast<typename F::Value&>(value), c));
         }
@@ -120,7 +221,7 @@ RELIEF_FLATTEN void shadeVertices(const void* vertexProgram, VertexLanes& vertic
 
 template <class Interpolators, class FragmentProgram, int components>
 void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle, const TriangleEdges& edges,
-                const CornerComponents<components>& corners, ShadedBlock& block)
+                const CornerComponents<components>& corners, bool isFront, ShadedBlock& block)
 {
     shading.activeLanes = block.quads;
     const auto input = [&] {
@@ -129,21 +230,15 @@ void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle,
         if constexpr (components == 0) edges.at(block.covered.x, block.covered.y, edge);
         const auto& c = block.centroid;
         const Float centroid[3] = {Float::load(c[0]), Float::load(c[1]), Float::load(c[2])};
-        return interpolate<Interpolators>(triangle, corners, edge, centroid, block.covered.coverage, block.covered.x,
-                                          block.covered.y);
+        return interpolate<Interpolators>(triangle, corners, edge, centroid, isFront, block.covered.coverage,
+                                          block.covered.x, block.covered.y);
     };
-    const auto store = [&](const float4& color) {
-        color.x.store(block.color[0]);
-        color.y.store(block.color[1]);
-        color.z.store(block.color[2]);
-        color.w.store(block.color[3]);
-    };
-    if constexpr (Shades<FragmentProgram, Interpolators, Discard&>) {
+    if constexpr (FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards) {
         Discard discard;
-        store(program(input(), discard));
+        storeOutputs(program(input(), discard), block);
         block.discarded = discard.discarded.bits();
     } else {
-        store(program(input()));
+        storeOutputs(program(input()), block);
     }
 }
 
@@ -160,11 +255,12 @@ RELIEF_FLATTEN void shadeBlocks(const void* fragmentProgram, std::span<ShadedBlo
     while (next != end) {
         const int current = next->covered.triangle;
         const auto& [a, b, c] = corners[current].components;
+        const bool isFront = corners[current].isFront;
         components.set(a, b, c);
         triangle.set(batch, current);
         if constexpr (components.kCount == 0) edges.set(batch, current);
         do {
-            shadeBlock<Interpolators>(program, triangle, edges, components, *next);
+            shadeBlock<Interpolators>(program, triangle, edges, components, isFront, *next);
         } while (++next != end && next->covered.triangle == current);
     }
 }
@@ -240,20 +336,33 @@ constexpr bool checkInterpolators()
     constexpr bool isFewEnough = interpolatedComponents(Fields{}) <= kMaxComponents;
     constexpr bool namesOnce = !hasOnePosition || !namesTwice(Fields{});
     constexpr bool integersFlat = integersAreFlat(Fields{});
+    constexpr bool clipsFewEnough = componentsWith<SystemValue::clipDistance>(Fields{}) <= kMaxClipDistances;
     static_assert(hasOnePosition,
                   "Interpolators must have exactly one SV_POSITION: the vertex program's clip-space position");
     static_assert(isFewEnough, "Interpolators may have at most 128 components");
     static_assert(namesOnce, "a semantic and its index may stand only once among the Interpolators");
     static_assert(integersFlat, "integers among the Interpolators must be nointerpolation<...>");
-    if constexpr (hasOnePosition && isFewEnough && namesOnce && integersFlat) {
-        constexpr bool takesInterpolators =
-            Shades<FragmentProgram, Interpolators> || Shades<FragmentProgram, Interpolators, Discard&>;
+    static_assert(clipsFewEnough, "SV_ClipDistance may have at most 8 components in all");
+    if constexpr (hasOnePosition && isFewEnough && namesOnce && integersFlat && clipsFewEnough) {
+        using Result = typename FragmentTypesOf<FragmentProgram, Interpolators>::Result;
+        constexpr bool takesInterpolators = isColorOrOutputs<Result>();
         static_assert(takesInterpolators,
-                      "the fragment program must take the Interpolators that the vertex "
-                      "program returns, and return float4");
+                      "the fragment program must take the Interpolators that the vertex program returns, and return "
+                      "float4, or a struct of SV_Target<0> ... SV_Target<3>, SV_Depth, SV_Coverage");
         return takesInterpolators;
     }
     return false;
+}
+
+// Whether a type is a struct of semantics that mean nothing else to the pipeline.
+template <class Struct, SystemValue... meanings>
+constexpr bool isStructOf()
+{
+    if constexpr (fieldCount<Struct>() >= 0) {
+        return meanOnly<meanings...>(FieldsOf<Struct>{});
+    } else {
+        return false;
+    }
 }
 
 // Whether two programs and their structs belong together. A mistake is one sentence in the compiler's output: every
@@ -266,14 +375,15 @@ constexpr bool checkPrograms()
     static_assert(isVertexProgram, "a vertex program must have: Interpolators operator()(VertexData v) const");
     if constexpr (isVertexProgram) {
         using Interpolators = InterpolatorsFor<VertexProgram>;
-        constexpr bool vertexDataIsSemantics = fieldCount<VertexData>() >= 0;
-        constexpr bool interpolatorsAreSemantics = fieldCount<Interpolators>() >= 0;
+        using enum SystemValue;
+        constexpr bool vertexDataIsSemantics = isStructOf<VertexData, none, id, position>();
+        constexpr bool interpolatorsAreSemantics = isStructOf<Interpolators, none, position, facing, clipDistance>();
         static_assert(vertexDataIsSemantics,
                       "every field of VertexData (at most 12, no arrays, no base class) must be a semantic: "
                       "POSITION, NORMAL, TANGENT, TEXCOORD<n, float2>, COLOR<n, float4>, SV_VertexID, SV_InstanceID");
         static_assert(interpolatorsAreSemantics,
                       "every field of Interpolators (at most 12, no arrays, no base class) must be a semantic: "
-                      "SV_POSITION, TEXCOORD<n, float4>, COLOR<n, float4>");
+                      "SV_POSITION, TEXCOORD<n, float4>, COLOR<n, float4>, SV_ClipDistance<n, float4>, SV_IsFrontFace");
         if constexpr (vertexDataIsSemantics && interpolatorsAreSemantics) {
             constexpr bool vertexDataHasNoScreen = positionCount(FieldsOf<VertexData>{}) == 0;
             constexpr bool vertexDataNamesOnce = !namesTwice(FieldsOf<VertexData>{});
@@ -297,7 +407,8 @@ inline constexpr Programs kPrograms = {
     kFields<VertexData>,
     kFields<Interpolators>,
     interpolatedComponents(FieldsOf<Interpolators>{}),
-    Shades<FragmentProgram, Interpolators, Discard&>,
+    FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards,
+    outputsOf<typename FragmentTypesOf<FragmentProgram, Interpolators>::Result>(),
     kCopier<VertexProgram>,
     kCopier<FragmentProgram>,
     shadeVertices<VertexData, Interpolators, VertexProgram>,

@@ -19,7 +19,7 @@ std::string nameOf(const Field& field)
 Expected<StreamView> findStream(const std::vector<StreamView>& streams, const Field& field, const Mesh& mesh,
                                 std::size_t vertices, std::uint32_t instances)
 {
-    if (field.isId) return StreamView{field.name, 0, 1, true, false, nullptr, 0};
+    if (field.systemValue == SystemValue::id) return StreamView{field.name, 0, 1, true, false, nullptr, 0};
     const auto found = std::find_if(streams.begin(), streams.end(), [&field](const StreamView& s) {
         return std::string_view(s.semantic) == field.name && s.index == field.index;
     });
@@ -87,7 +87,11 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
         draw.streams.push_back(*stream);
     }
     for (const Field& field : programs.interpolators) {
-        if (!field.isPosition)
+        for (int c = 0; c < field.components && field.systemValue == SystemValue::clipDistance; ++c) {
+            draw.geometry.clipDistances[static_cast<std::size_t>(draw.geometry.clipDistanceCount++)] =
+                static_cast<std::uint8_t>(draw.interpolations.size() + static_cast<std::size_t>(c));
+        }
+        if (field.isInterpolated)
             draw.interpolations.insert(draw.interpolations.end(), static_cast<std::size_t>(field.components),
                                        field.interpolation);
     }

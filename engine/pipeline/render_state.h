@@ -31,6 +31,45 @@ enum class Blend
     alpha
 };
 
+// What becomes of a pixel's 8-bit stencil.
+enum class StencilOp
+{
+    keep,
+    zero,
+    replace,         // by the reference
+    incrementClamp,  // at 255
+    decrementClamp,  // at 0
+    invert,
+    incrementWrap,
+    decrementWrap
+};
+
+// Of one side of triangles: the test is reference & readMask against stencil & readMask, before the depth test.
+struct StencilFace
+{
+    Compare test = Compare::always;
+    StencilOp fail = StencilOp::keep;       // what becomes of it where the stencil test fails
+    StencilOp depthFail = StencilOp::keep;  // where only the depth test fails
+    StencilOp pass = StencilOp::keep;       // where both pass
+
+    friend bool operator==(const StencilFace&, const StencilFace&) = default;
+};
+
+// A target without a stencil attachment passes every test (D3D 11.3, 17.13).
+struct Stencil
+{
+    std::uint8_t reference = 0, readMask = 0xff, writeMask = 0xff;
+    StencilFace front = {}, back = {};
+
+    bool isUsed() const { return front != StencilFace{} || back != StencilFace{}; }
+};
+
+// The same for both sides.
+inline Stencil bothSides(std::uint8_t reference, const StencilFace& face)
+{
+    return {reference, 0xff, 0xff, face, face};
+}
+
 // What a mesh's indices are: three for a triangle, or two for a line (see line.h).
 enum class Primitive
 {
@@ -57,6 +96,8 @@ struct RenderState
     Primitive primitive = Primitive::triangles;
     int lineWidth = 1;  // pixels: 1 or 2
     DepthBias depthBias = {};
+    bool colorWrite = true;  // false: nothing but depth and stencil
+    Stencil stencil = {};
 };
 
 // Which indices of a mesh a draw takes, and how often.

@@ -154,7 +154,7 @@ void swapCorners(TriangleLanes& t, Mask where)
 }
 
 // Appends the lanes in `kept`. A Triangle is these sixteen words; lanes that are not kept go where nobody reads.
-void append(const DrawGeometry& draw, const TriangleLanes& t, unsigned kept, TriangleChunk& chunk)
+void append(const TriangleLanes& t, Int drawWord, unsigned kept, TriangleChunk& chunk)
 {
     const std::size_t size = chunk.triangles.size();
     chunk.triangles.resize(size + static_cast<std::size_t>(std::popcount(kept)));
@@ -167,13 +167,12 @@ void append(const DrawGeometry& draw, const TriangleLanes& t, unsigned kept, Tri
         out += keep ? sizeof(Triangle) : 0;
     }
     static_assert(offsetof(Triangle, y) == 12 && offsetof(Triangle, z) == 24 && offsetof(Triangle, invW) == 36 &&
-                  offsetof(Triangle, vertex) == 48 && offsetof(Triangle, drawIndex) == 60);
+                  offsetof(Triangle, vertex) == 48 && offsetof(Triangle, drawWord) == 60);
     const auto bits = [](Float f) { return asInt(f).value; };
-    const native::IntVector word[16] = {
-        t.x[0].value,      t.x[1].value,      t.x[2].value,      t.y[0].value,
-        t.y[1].value,      t.y[2].value,      bits(t.z[0]),      bits(t.z[1]),
-        bits(t.z[2]),      bits(t.invW[0]),   bits(t.invW[1]),   bits(t.invW[2]),
-        t.vertex[0].value, t.vertex[1].value, t.vertex[2].value, Int(static_cast<std::int32_t>(draw.drawIndex)).value};
+    const native::IntVector word[16] = {t.x[0].value,      t.x[1].value,      t.x[2].value,      t.y[0].value,
+                                        t.y[1].value,      t.y[2].value,      bits(t.z[0]),      bits(t.z[1]),
+                                        bits(t.z[2]),      bits(t.invW[0]),   bits(t.invW[1]),   bits(t.invW[2]),
+                                        t.vertex[0].value, t.vertex[1].value, t.vertex[2].value, drawWord.value};
     for (int part = 0; part < 4; ++part) native::storeTransposed(word + 4 * part, address[part]);
 }
 
@@ -184,12 +183,15 @@ Survivors emit(const DrawGeometry& draw, const TriangleLanes& t, unsigned candid
     const unsigned facing = candidates & orientation.kept;
     const unsigned kept = facing & coversSample(t, draw);
     if (kept == 0) return {facing, kept};
+    const Int drawIndex = static_cast<std::int32_t>(draw.drawIndex);
     if ((kept & orientation.swapped) != 0) {
         TriangleLanes clockwise = t;
-        swapCorners(clockwise, Mask::fromBits(orientation.swapped));
-        append(draw, clockwise, kept, chunk);
+        const Mask swapped = Mask::fromBits(orientation.swapped);
+        swapCorners(clockwise, swapped);
+        append(clockwise, select(swapped, drawIndex | static_cast<std::int32_t>(kWasCounterClockwise), drawIndex), kept,
+               chunk);
     } else {
-        append(draw, t, kept, chunk);
+        append(t, drawIndex, kept, chunk);
     }
     return {facing, kept};
 }
@@ -202,8 +204,7 @@ void clipAndSetUp(const DrawGeometry& draw, const TriangleLanes& t, int lane, Tr
     const auto vertexOf = [&](int k) { return static_cast<std::uint32_t>(t.vertex[k][lane]); };
     const glm::vec4 corners[3] = {draw.clip[vertexOf(0)], draw.clip[vertexOf(1)], draw.clip[vertexOf(2)]};
     ClipVertex polygon[kMaxClippedVertices];
-    const int count =
-        clipTriangle(corners, {transform.inverseGuardX, transform.inverseGuardY, draw.depthClip}, polygon);
+    const int count = clipTriangle(corners, clipLimits(draw, {vertexOf(0), vertexOf(1), vertexOf(2)}), polygon);
     ++statistics.trianglesClipped;
     if (count == 0) {
         ++statistics.outside;
@@ -221,7 +222,7 @@ void clipAndSetUp(const DrawGeometry& draw, const TriangleLanes& t, int lane, Tr
             kept ? vertexOf(corner) : clippedVertex(draw, {vertexOf(0), vertexOf(1), vertexOf(2)}, polygon[i], chunk);
     }
 
-    // The fan (0, i + 1, i + 2): one triangle a lane, and at most eight of them.
+    // The fan (0, i + 1, i + 2): one triangle a lane.
     Survivors all{};
     for (int begin = 0; begin < count - 2; begin += kLanes) {
         std::int32_t corner[3][kLanes];

@@ -10,16 +10,32 @@ namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
-// The value that an attachment is cleared to; false where it is not.
-bool clearValue(const Attachment& attachment, const Clear& clear, std::int32_t (&words)[4])
+// What the attachments are cleared to, one after the other.
+class ClearValues
 {
-    if (attachment.format == Format::depth32f) {
-        if (clear.depth) words[0] = std::bit_cast<std::int32_t>(*clear.depth);
-        return clear.depth.has_value();
+public:
+    explicit ClearValues(const Clear& values) : clear(values) {}
+
+    // The next attachment's; false where it is not cleared.
+    bool next(const Attachment& attachment, std::int32_t (&words)[4])
+    {
+        if (attachment.format == Format::depth32f) {
+            if (clear.depth) words[0] = std::bit_cast<std::int32_t>(*clear.depth);
+            return clear.depth.has_value();
+        }
+        if (attachment.format == Format::stencil8) {
+            if (clear.stencil) words[0] = *clear.stencil;
+            return clear.stencil.has_value();
+        }
+        const std::optional<glm::vec4>& value = clear.color[colors++];
+        if (value) packColor(*value, attachment.format, words);
+        return value.has_value();
     }
-    if (clear.color) packColor(*clear.color, attachment.format, words);
-    return clear.color.has_value();
-}
+
+private:
+    const Clear& clear;
+    std::size_t colors = 0;
+};
 
 // Visits the blocks of a tile that lie in a target: visit(block, first pixel in the target, columns, rows).
 template <class Visit>
@@ -118,6 +134,12 @@ void resolveColor(const std::int32_t* samples, int count, std::int32_t* to)
 
 }  // namespace
 
+bool Clear::isAny() const
+{
+    const auto has = [](const std::optional<glm::vec4>& c) { return c.has_value(); };
+    return depth || stencil || std::any_of(color.begin(), color.end(), has);
+}
+
 TargetMemory::TargetMemory(Framebuffer& target)
     : width(target.width()), height(target.height()), samples(&target.samples()), attachments(target.attachments())
 {
@@ -135,14 +157,14 @@ Tile::Tile(int tileSize, const TargetMemory& target)
         plane.words = std::make_unique<std::int32_t[]>(wordCount(plane));
         planes.push_back(std::move(plane));
     }
+    std::size_t colors = 0;
     for (const Plane& plane : planes) {
-        if (plane.format == Format::depth32f) {
-            depthWords = reinterpret_cast<float*>(plane.words.get());
-        } else {
-            colorWords = plane.words.get();
-            mColorFormat = plane.format;
-        }
+        std::int32_t* const words = plane.words.get();
+        if (plane.format == Format::depth32f) depthWords = reinterpret_cast<float*>(words);
+        if (plane.format == Format::stencil8) stencilWords = words;
+        if (isColor(plane.format)) mColorPlanes[colors++] = {plane.format, words};
     }
+    mColors = (1u << colors) - 1;
     mBounds = std::make_unique<DepthBounds[]>(static_cast<std::size_t>(blockCount));
 }
 
@@ -162,9 +184,10 @@ void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
 {
     originX = x;
     originY = y;
+    ClearValues values(clear);
     for (std::size_t i = 0; i < planes.size(); ++i) {
         std::int32_t value[4] = {};
-        const bool isCleared = clearValue(target.attachments[i], clear, value);
+        const bool isCleared = values.next(target.attachments[i], value);
         const bool isPartial = x + size > target.width || y + size > target.height;
         if (isCleared || isPartial) fill(planes[i], value);
         if (!isCleared) load(planes[i], target, target.words[i]);
@@ -208,7 +231,7 @@ void Tile::load(const Plane& plane, const TargetMemory& target, const std::uint3
         std::copy_n(to + k / pattern->count * kLanes * words, kLanes * words, plane.words.get() + k * kLanes * words);
 }
 
-// What is kept of several samples, block by block: the mean of colours, the first one's depth.
+// What is kept of several samples, block by block: the mean of colours, the first one's depth and stencil.
 const std::int32_t* Tile::resolved(const Plane& plane)
 {
     if (!pattern->isMultiple()) return plane.words.get();
@@ -219,10 +242,10 @@ const std::int32_t* Tile::resolved(const Plane& plane)
         for (int block = 0; block < blockCount; ++block) {
             const std::int32_t* from = plane.words.get() + block * count * words;
             std::int32_t* to = onePerPixel.data() + block * words;
-            if constexpr (format == Format::depth32f) {
-                std::copy_n(from, words, to);
-            } else {
+            if constexpr (isColor(format)) {
                 resolveColor<format>(from, count, to);
+            } else {
+                std::copy_n(from, words, to);
             }
         }
     });
@@ -305,9 +328,10 @@ void clearRectangle(const TargetMemory& target, const Rectangle& pixels, const C
     if (inside.x0 >= inside.x1) return;
     const auto stride = static_cast<std::size_t>(target.width);
     const auto count = static_cast<std::size_t>(inside.x1 - inside.x0);
+    ClearValues values(clear);
     for (std::size_t i = 0; i < target.words.size(); ++i) {
         std::int32_t value[4] = {};
-        if (target.words[i] == nullptr || !clearValue(target.attachments[i], clear, value)) continue;
+        if (!values.next(target.attachments[i], value) || target.words[i] == nullptr) continue;
         const auto words = static_cast<std::size_t>(wordsPerPixel(target.attachments[i].format));
         for (int y = inside.y0; y < inside.y1; ++y) {
             std::uint32_t* row =

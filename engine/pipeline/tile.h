@@ -2,6 +2,7 @@
 // block's colour or depth is one load; the rows of the image exist only when the finished tile is written out.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,8 +23,11 @@ struct DepthBounds
 // What attachments hold before a frame's first draw. What is not cleared keeps what it holds. Colour is linear.
 struct Clear
 {
-    std::optional<glm::vec4> color;
+    std::array<std::optional<glm::vec4>, kMaxColors> color;  // of each colour attachment
     std::optional<float> depth;
+    std::optional<std::uint8_t> stencil;
+
+    bool isAny() const;
 };
 
 // Where a target's attachments lie: null where there is nothing to load and store. One value a pixel, however many
@@ -67,18 +71,22 @@ public:
         return static_cast<int>(row / kBlockHeight) * blocksWide + static_cast<int>(column / kBlockWidth);
     }
 
-    bool hasColor() const { return colorWords != nullptr; }
+    // The colour attachments, a bit each.
+    unsigned colors() const { return mColors; }
     bool hasDepth() const { return depthWords != nullptr; }
-    Format colorFormat() const { return mColorFormat; }
+    bool hasStencil() const { return stencilWords != nullptr; }
+    Format colorFormat(int target) const { return mColorPlanes[static_cast<std::size_t>(target)].format; }
 
     // A block's words: the first ones of all lanes, then the second ones. The caller knows the format. Where a pixel
     // has several samples, `block` is sampleOf() one of them.
     template <Format format>
-    std::int32_t* color(int block)
+    std::int32_t* color(int target, int block)
     {
-        return colorWords + static_cast<std::ptrdiff_t>(block) * (kLanes * wordsPerPixel(format));
+        return mColorPlanes[static_cast<std::size_t>(target)].words +
+               static_cast<std::ptrdiff_t>(block) * (kLanes * wordsPerPixel(format));
     }
     float* depth(int block) { return depthWords + static_cast<std::ptrdiff_t>(block) * kLanes; }
+    std::int32_t* stencil(int block) { return stencilWords + static_cast<std::ptrdiff_t>(block) * kLanes; }
     int sampleOf(int block, int sample) const { return block * pattern->count + sample; }
     DepthBounds& bounds(int block) { return mBounds[static_cast<std::size_t>(block)]; }
 
@@ -102,10 +110,17 @@ private:
     int size, blocksWide, blockCount;
     const SamplePattern* pattern;
     int originX = 0, originY = 0;
-    std::vector<Plane> planes;           // one for each attachment
-    std::int32_t* colorWords = nullptr;  // where the two lie
+    struct ColorPlane
+    {
+        Format format;
+        std::int32_t* words;
+    };
+
+    std::vector<Plane> planes;  // one for each attachment, and below where they lie
+    std::array<ColorPlane, kMaxColors> mColorPlanes{};
+    unsigned mColors = 0;
     float* depthWords = nullptr;
-    Format mColorFormat = Format::rgba8;
+    std::int32_t* stencilWords = nullptr;
     std::vector<std::int32_t> onePerPixel;  // room, where there are several samples
     std::unique_ptr<DepthBounds[]> mBounds;
     DepthBounds mWholeBounds{};

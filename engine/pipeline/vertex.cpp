@@ -79,6 +79,18 @@ void storeComponents(const DrawGeometry& draw, std::uint32_t first, std::uint32_
     }
 }
 
+// Vertices beyond a plane of the vertex program's own.
+void noteClipDistances(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, const Float* components)
+{
+    Mask beyond = false;
+    for (int i = 0; i < draw.clipDistanceCount; ++i)
+        beyond |= !(components[draw.clipDistances[static_cast<std::size_t>(i)]] >= 0.0f);
+    for (std::uint32_t i = 0; i < count && any(beyond); ++i) {
+        if (!beyond[static_cast<int>(i)]) continue;
+        draw.codes[first + i] = static_cast<std::uint16_t>(draw.codes[first + i] | vertex_code::beyondOwnPlane);
+    }
+}
+
 void shadeVertices(const Draw& draw, std::uint32_t first, std::uint32_t count)
 {
     const DrawGeometry& g = draw.geometry;
@@ -101,6 +113,7 @@ void shadeVertices(const Draw& draw, std::uint32_t first, std::uint32_t count)
         }
         draw.programs->shadeVertices(draw.vertexProgram.get(), lanes);
         projectVertices(g, begin, n, lanes.position);
+        noteClipDistances(g, begin, n, lanes.components);
         storeComponents(g, begin, n, lanes.components);
     }
 }

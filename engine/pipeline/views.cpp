@@ -23,7 +23,7 @@ VertexLanes someVertices(Fields vertexData, std::size_t changed)
     for (std::size_t f = 0; f < vertexData.size(); ++f) {
         for (int c = 0; c < 4; ++c) {
             const float base = 0.3f + 0.11f * static_cast<float>(f) + 0.07f * static_cast<float>(c);
-            const bool isNumber = !vertexData[f].isId && !vertexData[f].isInteger;
+            const bool isNumber = vertexData[f].systemValue != SystemValue::id && !vertexData[f].isInteger;
             vertices.in[f][c] = isNumber ? Float(laneXs()) * 0.013f + (f == changed ? base + 0.27f : base) : 0.0f;
         }
     }
@@ -55,7 +55,7 @@ void forEachInterpolator(const Draw& draw, const Function& function)
 {
     int first = 0;
     for (const Field& field : draw.programs->interpolators) {
-        if (field.isPosition) continue;
+        if (!field.isInterpolated) continue;
         if (function(field, Slots{first, field.components, field.interpolation, field.isInteger})) return;
         first += field.components;
     }

@@ -113,7 +113,7 @@ double wrongPairs(Range r, int pairs)
     const Columns right = evaluate<2>(in, [p](Float front, Float behind) {
         const Float a = stored<format>(front * p.scale + p.offset, front);
         const Float b = stored<format>(behind * p.scale + p.offset, behind);
-        return select(compareDepth(kNearer<format>, a, b), Float(1.0f), Float(0.0f));
+        return select(compareBy(kNearer<format>, a, b), Float(1.0f), Float(0.0f));
     });
     double wrong = 0.0;
     for (const float ordered : right[0]) wrong += ordered == 0.0f;
@@ -128,7 +128,7 @@ void add(Experiment& e, Range r, Effort effort)
     for (std::size_t i = 0; i < in->front().size(); ++i) (*in)[0][i] = (*in)[1][i] * p.scale + p.offset;
     const auto kernel = [](Float z, Float w, Float old) {
         const Float depth = stored<format>(z, w);
-        return select(compareDepth(kNearer<format>, depth, old), depth, old);
+        return select(compareBy(kNearer<format>, depth, old), depth, old);
     };
     const int pairs = effort.samples(1 << 18, 1 << 14);
     e.variants.push_back(laneVariant<3>(
