@@ -10,5 +10,8 @@
 #include "mesh/primitives.h"
 #include "pipeline/frame.h"
 #include "pipeline/save.h"
+#include "pipeline/target_texture.h"
+#include "shading/loop.h"
+#include "texture/comparison_sampler.h"
 #include "texture/image.h"
 #include "texture/sampler.h"

@@ -49,12 +49,14 @@ inline Texture randomTexture(TexelFormat format, int width, int height, std::uin
         for (auto& p : pixels) p = static_cast<std::uint16_t>(random.bits());
         return *Texture::fromRgba16(width, height, pixels, ColorSpace::linear);
     }
-    std::vector<float> pixels(count);
+    std::vector<float> pixels(format == TexelFormat::r32Float ? count / 4 : count);
     for (auto& p : pixels) p = random(-1.0f, 1.0f);
+    if (format == TexelFormat::r32Float) return *Texture::fromRed(width, height, pixels);
     return *Texture::fromRgbaFloat(width, height, pixels);
 }
 
-inline constexpr TexelFormat kFormats[] = {TexelFormat::rgba8, TexelFormat::rgba16, TexelFormat::rgba32Float};
+inline constexpr TexelFormat kFormats[] = {TexelFormat::rgba8, TexelFormat::rgba16, TexelFormat::rgba32Float,
+                                           TexelFormat::r32Float};
 inline constexpr AddressMode kModes[] = {AddressMode::wrap, AddressMode::mirror, AddressMode::clamp,
                                          AddressMode::border};
 inline constexpr Filter kFilters[] = {Filter::nearest, Filter::bilinear, Filter::trilinear};
@@ -87,9 +89,11 @@ inline double texelOf(const sampler2D& s, const MipLevel& level, int x, int y, i
         case TexelFormat::rgba16:
             return level.texel<std::uint16_t>(i, j)[c] / 65535.0;
         case TexelFormat::rgba32Float:
+            return static_cast<double>(level.texel<float>(i, j)[c]);
+        case TexelFormat::r32Float:
             break;
     }
-    return static_cast<double>(level.texel<float>(i, j)[c]);
+    return c == 0 ? static_cast<double>(*level.texel<float>(i, j)) : c == 3 ? 1.0 : 0.0;
 }
 
 inline double referenceNearest(const sampler2D& s, const MipLevel& level, double u, double v, int c)

@@ -8,31 +8,6 @@
 
 namespace relief::inline RELIEF_WIDTH {
 
-// Depths, or stencils: floats or integers.
-template <class T>
-Mask compareBy(Compare compare, T z, T stored)
-{
-    switch (compare) {
-        case Compare::never:
-            return Mask(false);
-        case Compare::less:
-            return z < stored;
-        case Compare::equal:
-            return z == stored;
-        case Compare::lessEqual:
-            return z <= stored;
-        case Compare::greater:
-            return z > stored;
-        case Compare::notEqual:
-            return z != stored;
-        case Compare::greaterEqual:
-            return z >= stored;
-        case Compare::always:
-            break;
-    }
-    return Mask(true);
-}
-
 // What an operation makes of 8-bit stencils.
 inline Int operate(StencilOp op, Int old, int reference)
 {

@@ -3,19 +3,10 @@
 
 #include <cstdint>
 
+#include "hlsl/compare.h"
+
 namespace relief {
 
-enum class Compare
-{
-    never,
-    less,
-    equal,
-    lessEqual,
-    greater,
-    notEqual,
-    greaterEqual,
-    always
-};
 enum class Cull
 {
     none,

@@ -249,6 +249,50 @@ private:
     }
 };
 
+// R32F: red as it is, and (0, 0, 1).
+struct FetchR32Float
+{
+    static constexpr int kBytes = 4;
+    static constexpr float kOne = 1.0f;
+
+    // The 2x2 texels from `index` on.
+    struct Square
+    {
+        Float lowerLeft, lowerRight, upperLeft, upperRight;
+    };
+    static Square square(const MipLevel& level, Int index)
+    {
+        native::IntVector lower[2], upper[2];
+        const detail::TexelIndices indices(index);
+        const std::byte* texels = level.texels();
+        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(texels),
+                                                 indices.from<kBytes>(texels + level.rowBytes()), lower, upper);
+        return {asFloat(Int(lower[0])), asFloat(Int(lower[1])), asFloat(Int(upper[0])), asFloat(Int(upper[1]))};
+    }
+
+    static float4 nearest(const MipLevel& level, Int index)
+    {
+        native::IntVector words[2];
+        const detail::TexelIndices indices(index);
+        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(level.texels()), words);
+        return red(asFloat(Int(words[0])));
+    }
+
+    static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
+    {
+        const Square s = square(level, index);
+        const Float tx = Float(fx) * (1.0f / kSubtexels), ty = Float(fy) * (1.0f / kSubtexels);
+        return red(mix(mix(s.lowerLeft, s.lowerRight, tx), mix(s.upperLeft, s.upperRight, tx), ty));
+    }
+
+    static Float mix(Float a, Float b, Float t) { return FetchRgba32Float::mix(a, b, t); }
+
+    static float4 toUnit(const float4& raw) { return raw; }
+
+private:
+    static float4 red(Float value) { return {value, Float(0.0f), Float(0.0f), Float(1.0f)}; }
+};
+
 // The same for levels whose alpha is 1 everywhere: a quarter of the filter is left out.
 template <class Fetch>
 struct Opaque : Fetch

@@ -56,52 +56,52 @@ Channel average(Sum<Channel> sum, Sum<Channel> total)
         return static_cast<Channel>((2 * sum + total) / (2 * total));
 }
 
-template <class Channel>
+template <class Channel, std::size_t channels>
 void averageArea(const MipLevel& fine, const Coverage& across, const Coverage& along, Channel* coarse)
 {
-    std::array<Sum<Channel>, 4> sum{};
+    std::array<Sum<Channel>, channels> sum{};
     for (int y = 0; y < along.count; ++y) {
         for (int x = 0; x < across.count; ++x) {
             const Channel* texel = fine.texel<Channel>(across.first + x, along.first + y);
             const auto weight = static_cast<Sum<Channel>>(across.weights[static_cast<std::size_t>(x)]) *
                                 along.weights[static_cast<std::size_t>(y)];
-            for (std::size_t c = 0; c < 4; ++c) sum[c] += texel[c] * weight;
+            for (std::size_t c = 0; c < channels; ++c) sum[c] += texel[c] * weight;
         }
     }
     const auto total = static_cast<Sum<Channel>>(across.total) * along.total;
-    for (std::size_t c = 0; c < 4; ++c) coarse[c] = average<Channel>(sum[c], total);
+    for (std::size_t c = 0; c < channels; ++c) coarse[c] = average<Channel>(sum[c], total);
 }
 
 // One row of coarse texels where both sides are even, the usual case: the same result as averageArea, without weights.
-template <class Channel>
+template <class Channel, std::size_t n>
 void averageRowOfPairs(const Channel* lower, const Channel* upper, Channel* coarse, int width)
 {
-    for (int x = 0; x < width; ++x, lower += 8, upper += 8, coarse += 4) {
-        for (int c = 0; c < 4; ++c) {
+    for (int x = 0; x < width; ++x, lower += 2 * n, upper += 2 * n, coarse += n) {
+        for (std::size_t c = 0; c < n; ++c) {
             if constexpr (std::is_floating_point_v<Channel>) {
-                const double sum = static_cast<double>(lower[c]) + lower[c + 4] + upper[c] + upper[c + 4];
+                const double sum = static_cast<double>(lower[c]) + lower[c + n] + upper[c] + upper[c + n];
                 coarse[c] = static_cast<Channel>(sum * 0.25);
             } else {
-                const std::uint32_t sum = std::uint32_t{lower[c]} + lower[c + 4] + upper[c] + upper[c + 4];
+                const std::uint32_t sum = std::uint32_t{lower[c]} + lower[c + n] + upper[c] + upper[c + n];
                 coarse[c] = static_cast<Channel>((sum + 2) / 4);
             }
         }
     }
 }
 
-template <class Channel>
+template <class Channel, std::size_t channels = 4>
 void averageLevel(const MipLevel& fine, MipLevel& coarse)
 {
     const bool evenSides = fine.width() % 2 == 0 && fine.height() % 2 == 0;
     for (int y = 0; y < coarse.height(); ++y) {
         if (evenSides) {
-            averageRowOfPairs(fine.texel<Channel>(0, 2 * y), fine.texel<Channel>(0, 2 * y + 1),
-                              coarse.texel<Channel>(0, y), coarse.width());
+            averageRowOfPairs<Channel, channels>(fine.texel<Channel>(0, 2 * y), fine.texel<Channel>(0, 2 * y + 1),
+                                                 coarse.texel<Channel>(0, y), coarse.width());
             continue;
         }
         const Coverage along = coverage(fine.height(), y);
         for (int x = 0; x < coarse.width(); ++x) {
-            averageArea(fine, coverage(fine.width(), x), along, coarse.texel<Channel>(x, y));
+            averageArea<Channel, channels>(fine, coverage(fine.width(), x), along, coarse.texel<Channel>(x, y));
         }
     }
 }
@@ -133,7 +133,8 @@ std::uint64_t levelBytes(TexelFormat format, int width, int height)
 }
 
 MipLevel::MipLevel(TexelFormat format, int width, int height)
-    : columns(width),
+    : texelFormat(format),
+      columns(width),
       rows(height),
       stride(paddedRowTexels(format, width)),
       texelBytes(static_cast<std::size_t>(bytesPerTexel(format))),
@@ -156,8 +157,8 @@ void MipLevel::fillFrame()
     const auto framedRow = static_cast<std::size_t>(width() + 2);
     copy(-1, -1, -1, height() - 1, framedRow);
     copy(-1, height(), -1, 0, framedRow);
-    opaque = (texelBytes == 4 && hasFullAlpha<std::uint8_t>(*this)) ||
-             (texelBytes == 8 && hasFullAlpha<std::uint16_t>(*this));
+    opaque = (texelFormat == TexelFormat::rgba8 && hasFullAlpha<std::uint8_t>(*this)) ||
+             (texelFormat == TexelFormat::rgba16 && hasFullAlpha<std::uint16_t>(*this));
 }
 
 MipLevel coarserLevel(TexelFormat format, const MipLevel& fine)
@@ -173,6 +174,9 @@ MipLevel coarserLevel(TexelFormat format, const MipLevel& fine)
             break;
         case TexelFormat::rgba32Float:
             averageLevel<float>(fine, coarse);
+            break;
+        case TexelFormat::r32Float:
+            averageLevel<float, 1>(fine, coarse);
             break;
     }
     coarse.fillFrame();

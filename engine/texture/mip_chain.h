@@ -13,17 +13,24 @@
 
 namespace relief {
 
-// Red, green, blue, alpha. The first two hold numbers in 0..1 (UNORM: code / 255, code / 65535).
+// Red, green, blue, alpha. The first two hold numbers in 0..1 (UNORM: code / 255, code / 65535). The last one is red
+// alone, such as a depth, and is (red, 0, 0, 1) when it is sampled.
 enum class TexelFormat
 {
     rgba8,
     rgba16,
-    rgba32Float
+    rgba32Float,
+    r32Float
 };
+
+constexpr int channelsPerTexel(TexelFormat format)
+{
+    return format == TexelFormat::r32Float ? 1 : 4;
+}
 
 constexpr int bytesPerTexel(TexelFormat format)
 {
-    return format == TexelFormat::rgba8 ? 4 : format == TexelFormat::rgba16 ? 8 : 16;
+    return format == TexelFormat::rgba32Float ? 16 : format == TexelFormat::rgba16 ? 8 : 4;
 }
 
 inline constexpr int kMaxTextureSide = 16384;  // texels; D3D's own limit, and what 32-bit texel indices are safe for
@@ -62,17 +69,17 @@ public:
     // (y + 1) * rowTexels() + x + 1 from here; x = -1..width and y = -1..height exist.
     const std::byte* texels() const { return lines.data()->bytes; }
 
-    // The four channels of a texel (x = -1..width, y = -1..height), to write or read one at a time. Channel is
-    // std::uint8_t, std::uint16_t or float, as the format says.
+    // The channels of a texel (x = -1..width, y = -1..height), to write or read one at a time. Channel is std::uint8_t,
+    // std::uint16_t or float, as the format says.
     template <class Channel>
     Channel* texel(int x, int y)
     {
-        return reinterpret_cast<Channel*>(lines.data()->bytes) + offset(x, y) * 4;
+        return reinterpret_cast<Channel*>(lines.data()->bytes + offset(x, y) * texelBytes);
     }
     template <class Channel>
     const Channel* texel(int x, int y) const
     {
-        return reinterpret_cast<const Channel*>(lines.data()->bytes) + offset(x, y) * 4;
+        return reinterpret_cast<const Channel*>(lines.data()->bytes + offset(x, y) * texelBytes);
     }
 
     // Copies the texels of each side to the frame on the opposite one. To be called once all texels are written.
@@ -93,6 +100,7 @@ private:
     }
 
     std::vector<CacheLine> lines;
+    TexelFormat texelFormat;
     TextureSide columns, rows;
     int stride;
     std::size_t texelBytes, strideInBytes;

@@ -16,13 +16,13 @@ int mixCodes(int code, int grey, Fade fade)
     return (2 * (code * (fade.span - fade.step) + grey * fade.step) + fade.span) / (2 * fade.span);
 }
 
-template <class Channel, class Mix>
+template <class Channel, int channels = 4, class Mix>
 void mixEach(MipLevel& level, Mix mix)
 {
     for (int y = 0; y < level.height(); ++y) {
         Channel* texel = level.texel<Channel>(0, y);
-        for (int x = 0; x < level.width(); ++x, texel += 4) {
-            for (int c = 0; c < 3; ++c) texel[c] = mix(texel[c]);
+        for (int x = 0; x < level.width(); ++x, texel += channels) {
+            for (int c = 0; c < std::min(channels, 3); ++c) texel[c] = mix(texel[c]);
         }
     }
     level.fillFrame();
@@ -57,6 +57,8 @@ void fadeToGrey(TexelFormat format, ColorSpace meaning, MipLevel& level, Fade fa
             return mixEach<std::uint16_t>(level, mix16);
         case TexelFormat::rgba32Float:
             return mixEach<float>(level, mixFloat);
+        case TexelFormat::r32Float:
+            return mixEach<float, 1>(level, mixFloat);
     }
 }
 

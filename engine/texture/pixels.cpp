@@ -11,14 +11,15 @@
 namespace relief {
 namespace {
 
-// Copies pixels, turned upside down and converted one by one: convert(pixel, texel) reads and writes four channels.
+// Copies pixels, turned upside down and converted one by one: convert(pixel, texel) reads and writes all channels.
 template <class Channel, class Source, class Convert>
 MipLevel importPixels(TexelFormat format, int width, int height, const Source* rgba, Convert convert)
 {
     MipLevel level(format, width, height);
+    const int channels = channelsPerTexel(format);
     for (int y = height; y-- > 0;) {
         Channel* texel = level.texel<Channel>(0, y);
-        for (int x = 0; x < width; ++x, rgba += 4, texel += 4) convert(rgba, texel);
+        for (int x = 0; x < width; ++x, rgba += channels, texel += channels) convert(rgba, texel);
     }
     level.fillFrame();
     return level;
@@ -28,23 +29,25 @@ constexpr auto kCopyTexel = [](const auto* from, auto* to) { std::copy_n(from, 4
 
 }  // namespace
 
-std::string problemWithPixels(int width, int height, std::size_t numbers)
+std::string problemWithPixels(int width, int height, int channels, std::size_t numbers)
 {
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
     if (width < 1 || height < 1 || width > kMaxTextureSide || height > kMaxTextureSide) {
         return "a texture of " + size + " texels is not possible; each side must be in 1.." +
                std::to_string(kMaxTextureSide);
     }
-    const std::size_t expected = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
+    const std::size_t expected =
+        static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
     if (numbers == expected) return {};
-    return std::to_string(numbers) + " numbers do not make a texture of " + size +
-           " texels; pass width * height * 4 = " + std::to_string(expected);
+    return std::to_string(numbers) + " numbers do not make a texture of " + size + " texels; pass width * height * " +
+           std::to_string(channels) + " = " + std::to_string(expected);
 }
 
 std::string problemWithPixels(const ImageFile& picture)
 {
     return std::visit(
-        [](const auto& image) { return problemWithPixels(image.width, image.height, image.pixels.size()); }, picture);
+        [](const auto& image) { return problemWithPixels(image.width, image.height, 4, image.pixels.size()); },
+        picture);
 }
 
 TexelFormat formatOf(const ImageFile& picture, ColorSpace meaning)
@@ -83,6 +86,12 @@ MipLevel levelFromRgba16(int width, int height, std::span<const std::uint16_t> r
 MipLevel levelFromRgbaFloat(int width, int height, std::span<const float> rgba)
 {
     return importPixels<float>(TexelFormat::rgba32Float, width, height, rgba.data(), kCopyTexel);
+}
+
+MipLevel levelFromRed(int width, int height, std::span<const float> red)
+{
+    const auto copy = [](const float* from, float* to) { *to = *from; };
+    return importPixels<float>(TexelFormat::r32Float, width, height, red.data(), copy);
 }
 
 MipLevel levelFromPicture(const ImageFile& picture, ColorSpace meaning)

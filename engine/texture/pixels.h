@@ -14,8 +14,8 @@
 namespace relief {
 
 // What is wrong with a picture of width x height made of `numbers` channel values; empty where it can become a texture:
-// each side in 1..kMaxTextureSide, and width * height * 4 numbers.
-std::string problemWithPixels(int width, int height, std::size_t numbers);
+// each side in 1..kMaxTextureSide, and width * height * channels numbers.
+std::string problemWithPixels(int width, int height, int channels, std::size_t numbers);
 std::string problemWithPixels(const ImageFile& picture);
 
 // The format that a picture is stored in: rgba8 and rgba16 for linear codes of these widths, rgba16 for sRGB codes of
@@ -27,6 +27,7 @@ TexelFormat formatOf(const ImageFile& picture, ColorSpace meaning);
 MipLevel levelFromRgba8(int width, int height, std::span<const std::uint8_t> rgba, ColorSpace meaning);
 MipLevel levelFromRgba16(int width, int height, std::span<const std::uint16_t> rgba, ColorSpace meaning);
 MipLevel levelFromRgbaFloat(int width, int height, std::span<const float> rgba);
+MipLevel levelFromRed(int width, int height, std::span<const float> red);
 MipLevel levelFromPicture(const ImageFile& picture, ColorSpace meaning);
 
 // 16-bit linear light to the 16-bit sRGB code and back, from tables: linearToSrgb and srgbToLinear16 (color_space.h).

@@ -69,6 +69,8 @@ template <class Function>
             return forModes.template operator()<FetchRgba8>();
         case TexelFormat::rgba16:
             return forModes.template operator()<FetchRgba16>();
+        case TexelFormat::r32Float:
+            return forModes.template operator()<FetchR32Float>();
         case TexelFormat::rgba32Float:
             break;
     }

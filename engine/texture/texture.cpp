@@ -26,6 +26,9 @@ glm::vec4 readTexel(TexelFormat format, const MipLevel& level, int x, int y)
             case TexelFormat::rgba32Float:
                 r[c] = level.texel<float>(x, y)[c];
                 break;
+            case TexelFormat::r32Float:
+                r[c] = c == 0 ? *level.texel<float>(x, y) : c == 3 ? 1.0f : 0.0f;
+                break;
         }
     }
     return r;
@@ -34,7 +37,7 @@ glm::vec4 readTexel(TexelFormat format, const MipLevel& level, int x, int y)
 // A texture with its levels takes a third more than the finest one.
 std::string problemWith(TexelFormat format, int width, int height, std::size_t numbers)
 {
-    std::string problem = problemWithPixels(width, height, numbers);
+    std::string problem = problemWithPixels(width, height, channelsPerTexel(format), numbers);
     if (!problem.empty() || fitsInMemory(levelBytes(format, width, height) / 3 * 4)) return problem;
     return "a texture of " + std::to_string(width) + "x" + std::to_string(height) +
            " texels does not fit into memory; make it smaller";
@@ -67,10 +70,19 @@ Expected<Texture> Texture::fromRgbaFloat(int width, int height, std::span<const 
     return Texture(TexelFormat::rgba32Float, levelFromRgbaFloat(width, height, rgba));
 }
 
+Expected<Texture> Texture::fromRed(int width, int height, std::span<const float> red)
+{
+    const DefaultFloatingPoint environment;
+    if (std::string problem = problemWith(TexelFormat::r32Float, width, height, red.size()); !problem.empty())
+        return fail(std::move(problem));
+    return Texture(TexelFormat::r32Float, levelFromRed(width, height, red));
+}
+
 Expected<Texture> Texture::fromLevels(TexelFormat format, int width, int height, MakeLevel make)
 {
     const DefaultFloatingPoint environment;
-    const auto numbers = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
+    const auto numbers = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                         static_cast<std::size_t>(channelsPerTexel(format));
     if (std::string problem = problemWith(format, width, height, numbers); !problem.empty())
         return fail(std::move(problem));
     Texture texture(format, width, height, std::move(make));

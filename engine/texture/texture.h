@@ -38,6 +38,9 @@ public:
     // coarser levels, and nowhere else.
     static Expected<Texture> fromRgbaFloat(int width, int height, std::span<const float> rgba);
 
+    // The same with one number a texel, width * height of them: depths, heights.
+    static Expected<Texture> fromRed(int width, int height, std::span<const float> red);
+
     // From levels that somebody makes when they are first asked for, level 0 included. `make` is called once per level,
     // in order from 0, by one thread at a time; it gets the level's number and the level before (null for level 0), and
     // returns one of `format`, frame filled, with sides width, height or nextSide() of those before. It is dropped with
