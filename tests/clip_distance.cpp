@@ -154,7 +154,7 @@ TEST_CASE("clip distance: neighbours that are cut still meet")
     measured("pixels missed", missed, 0);
 }
 
-TEST_CASE("clip distance: infinities and NaN cut, or do not, and nothing breaks")
+TEST_CASE("clip distance: infinities and NaN cut, or do not, and nothing breaks (S-209)")
 {
     constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
     struct Given

@@ -74,6 +74,27 @@ TEST_CASE("depth bias: both together are limited, and depth stays within 0 and 1
     }
 }
 
+TEST_CASE("depth bias: a triangle that is seen edge-on has a slope that is no number (S-907)")
+{
+    constexpr float most = 3e38f;
+    int wrong = 0;
+    for (const float a : {-most, 0.5f, most}) {
+        for (const float b : {-most, 0.5f, most}) {
+            for (const float c : {-most, 0.5f, most}) {
+                const glm::vec3 corners[3] = {{0, 0, a}, {64, 0, b}, {0, 64, c}};
+                const float plain = depthOf(corners, {});
+                // Without a slope only the constant counts: no step at all is the same as nothing.
+                wrong += depthOf(corners, {.constant = 1e-30f}) != plain;
+                for (const float slope : {1.0f, -1.0f, 1e-30f, most}) {
+                    const float depth = depthOf(corners, {.slope = slope});
+                    wrong += !(depth >= 0.0f && depth <= 1.0f);
+                }
+            }
+        }
+    }
+    measured("depths that are none, or were moved", wrong, 0);
+}
+
 TEST_CASE("depth bias: hidden blocks know of it")
 {
     // A wall, and the same wall moved towards the viewer: every pixel of it passes, however it is cut.

@@ -34,7 +34,7 @@ TEST_CASE("format: every finite half is read exactly and written as itself")
     measured("halves off", wrong, 0);
 }
 
-TEST_CASE("format: floats become the nearest half, ties to even, and never an infinity")
+TEST_CASE("format: floats become the nearest half, ties to even, and never an infinity (S-958)")
 {
     int wrong = 0;
     for (int code = 0; code < 0x7bff; ++code) {

@@ -192,7 +192,7 @@ TEST_CASE("multisampling: coverage of 100000 random triangles equals exact arith
     CHECK(broken == 0);
 }
 
-TEST_CASE("multisampling: a shared edge is hit once per sample")
+TEST_CASE("multisampling: a shared edge is hit once per sample (S-316)")
 {
     Random random(52);
     int wrong = 0;

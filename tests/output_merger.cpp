@@ -436,7 +436,7 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
         Tile tile(16, TargetMemory(target));
         int wrong = 0;
         for (int i = 0; i < trials(500); ++i) {
-            tile.begin(0, 0, memory, {glm::vec4(0.25f), 1.0f});
+            tile.begin(0, 0, memory, {{glm::vec4(0.25f)}, 1.0f, {}});
             const unsigned live = static_cast<unsigned>(random.next()) & kAllLanes;
             alignas(Float) Channels color;
             for (float(&channel)[kLanes] : color) Float(0.75f).store(channel);
@@ -444,7 +444,7 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
             tile.store(memory);
             Framebuffer cleared = makeTarget(16, 16, format);
             Tile clean(16, TargetMemory(cleared));
-            clean.begin(0, 0, TargetMemory(cleared), {glm::vec4(0.25f), 1.0f});
+            clean.begin(0, 0, TargetMemory(cleared), {{glm::vec4(0.25f)}, 1.0f, {}});
             clean.store(TargetMemory(cleared));
             for (int y = 0; y < 16; ++y) {
                 for (int x = 0; x < 16; ++x) {

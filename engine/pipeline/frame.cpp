@@ -170,6 +170,11 @@ int Frame::drawCount() const
     return static_cast<int>(storage->draws.size());
 }
 
+FrameOptions Frame::options() const
+{
+    return {storage->workers.count(), storage->tileSize, storage->maxBinned};
+}
+
 // --- running ---
 
 Statistics Frame::run()

@@ -74,6 +74,9 @@ public:
 
     int drawCount() const;
 
+    // What it runs with: as many threads as there are, and the tiles' side that was chosen.
+    FrameOptions options() const;
+
     // Forgets the recorded draws and the clear, for the next frame.
     void reset();
 

@@ -85,7 +85,12 @@ Float biasOf(const TriangleBatch& batch, const Corners& c, const Float (&z)[3], 
     const Float dz1 = z[1] - z[0], dz2 = z[2] - z[0], perPixel = static_cast<float>(kSubpixels) * batch.inverseArea;
     const Float across = abs(side(c.y, 2) * dz1 - side(c.y, 1) * dz2),
                 down = abs(side(c.x, 1) * dz2 - side(c.x, 2) * dz1);
-    const Float sum = bias.constant * step + bias.slope * (higher(across, down) * perPixel);
+    Float sum = bias.constant * step;
+    // Seen edge-on the slope may be infinite, or no number: no bias by it where none is asked for, else the largest.
+    if (bias.slope != 0.0f) {
+        const Float slope = higher(across, down) * perPixel;
+        sum = sum + bias.slope * select(isnan(slope), Float(std::numeric_limits<float>::max()), slope);
+    }
     const float limit = bias.limit == 0.0f ? 1e30f : bias.limit < 0.0f ? -bias.limit : bias.limit;  // finite anyhow
     return clamp(sum, -limit, limit);
 }

@@ -84,4 +84,26 @@ struct TriplanarMaterial : Uniforms
     UnityLight light = sun(35.0f, -40.0f);
 };
 
+// Chapter 5's bricks, whose heights move what is seen.
+struct ParallaxMaterial : Uniforms
+{
+    sampler2D mainTex = albedo("bricks-albedo.png");
+    sampler2D normalMap = normals("bricks-heights.png", normalMapSettings(0.04f));
+    sampler2D heightMap = heights("bricks-heights.png");
+    Float parallaxStrength = number("parallaxStrength", 0.06f, {0, 0.25f}, "from the lowest to the highest, in uv");
+    Float bumpScale = number("bumpScale", 1.0f, {-32, 32}, "the bumps' strength; 1: as the map was made");
+    float3 ambient = rgb("ambient", glm::vec3(0.08f), "light from everywhere");
+    UnityLight light = sun(40.0f, -60.0f);
+};
+
+// And what its shadows fall on.
+struct ShadowMaterial : Uniforms
+{
+    float4 tint = rgba("tint", {0.8f, 0.78f, 0.74f, 1.0f}, "the surfaces' colour");
+    sampler2D normalMap = normals("marble-heights.png");
+    Float bumpScale = number("bumpScale", 1.0f, {-32, 32}, "the bumps' strength; 1: as the map was made");
+    float3 ambient = rgb("ambient", glm::vec3(0.08f), "light from everywhere");
+    UnityLight light = sun(38.0f, -50.0f);
+};
+
 }  // namespace relief::samples

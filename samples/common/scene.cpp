@@ -113,6 +113,8 @@ void SceneLog::clear()
     problem.clear();
     passesLeftOut = 0;
     kept.clear();
+    targets.clear();
+    rendered.clear();
     textures.clear();
 }
 
@@ -130,6 +132,60 @@ Scene::Scene(Frame& target, SceneLog& sceneLog, int w, int h, const Camera& came
       inputs(loaded)
 {
     cutStrip(0.0f, 1.0f);
+}
+
+Scene::Scene(const Scene& outer, Frame& target, const Framebuffer& pixels, const glm::mat4& clip)
+    : frame(target),
+      width(pixels.width()),
+      height(pixels.height()),
+      objects(outer.objects),
+      mesh(outer.mesh),
+      log(outer.log),
+      clipFromWorld(clip),
+      cameraPosition(outer.cameraPosition),
+      properties(outer.properties),
+      inputs(outer.inputs)
+{
+    cutStrip(0.0f, 1.0f);
+}
+
+Framebuffer& Scene::pass(Framebuffer made, const glm::mat4& clip, const std::function<void(const Scene&)>& record) const
+{
+    const std::size_t drawnBefore = log.drawn.size();
+    const Viewport viewport = log.viewport;
+    const Rectangle scissor = log.scissor;
+    Framebuffer& target = log.targets.emplace_back(std::move(made));
+    Frame ofPass(target, {frame.options().threads});
+    ofPass.clear(glm::vec4(0.0f));
+    record(Scene(*this, ofPass, target, clip));
+    if (log.problem.empty()) log.problem = ofPass.problem();
+    const Statistics statistics = ofPass.run();
+    note("before the picture: a pass of " + std::to_string(target.width()) + "x" + std::to_string(target.height()) +
+         ", " + std::to_string(statistics.draws) + " draws, " + std::to_string(statistics.rasterised) + " triangles");
+    log.drawn.resize(drawnBefore);  // what lines are drawn over is the picture
+    log.viewport = viewport;
+    log.scissor = scissor;
+    return target;
+}
+
+Framebuffer& Scene::pass(Framebuffer made, const std::function<void(const Scene&)>& record) const
+{
+    return pass(std::move(made), clipFromWorld, record);
+}
+
+sampler2D Scene::sampled(const Framebuffer& target, int attachment) const
+{
+    Expected<Texture> texture = textureOf(target, attachment);
+    if (!texture) {
+        log.problem = texture.error().message;
+        return {};
+    }
+    const Texture& made = log.rendered.emplace_back(std::move(*texture));
+    return {.texture = &made,
+            .filter = Filter::bilinear,
+            .u = AddressMode::clamp,
+            .v = AddressMode::clamp,
+            .mipmaps = false};
 }
 
 glm::vec4 Scene::value(const Declaration& declaration) const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -48,11 +49,13 @@ struct SceneLog
         Rectangle scissor;
     };
     std::vector<Drawn> drawn;
-    std::vector<std::string> notes;  // what was left out, and what was measured; for explain
-    std::vector<Label> labels;       // for who shows the picture (inside.h)
-    std::string problem;             // with the stage itself, one line
-    int passesLeftOut = 0;           // by Scene::reaches
-    std::deque<Mesh> kept;           // meshes that the scene made
+    std::vector<std::string> notes;   // what was left out, and what was measured; for explain
+    std::vector<Label> labels;        // for who shows the picture (inside.h)
+    std::string problem;              // with the stage itself, one line
+    int passesLeftOut = 0;            // by Scene::reaches
+    std::deque<Mesh> kept;            // meshes that the scene made
+    std::deque<Framebuffer> targets;  // of passes before the picture, and what of them is a texture
+    std::deque<Texture> rendered;
 
     // Meshes that came without uv or tangents, with them; made when a program first reads any.
     std::map<const Mesh*, std::unique_ptr<Mesh>> uvs, tangents;
@@ -95,6 +98,18 @@ public:
     void draw(const Mesh& mesh, const VertexProgram& vertexProgram, const FragmentProgram& fragmentProgram,
               const RenderState& state = {}) const;
 
+    // Draws into a target of its own before the picture, seen by a camera of its own: `record` gets a scene for it,
+    // whose frame is cleared to 0 and depth 1, and which is run at once. The target lives until the picture's frame has
+    // run.
+    Framebuffer& pass(Framebuffer target, const glm::mat4& clipFromWorld,
+                      const std::function<void(const Scene&)>& record) const;
+
+    // The same, seen by the picture's own camera.
+    Framebuffer& pass(Framebuffer target, const std::function<void(const Scene&)>& record) const;
+
+    // An attachment of such a target as a texture (pipeline/target_texture.h), clamped at its edges. It lives as long.
+    sampler2D sampled(const Framebuffer& target, int attachment) const;
+
     // Whether a light reaches an object; if not, its pass is to be left out, and explain says so.
     template <class Light>
     bool reaches(std::string_view name, const Light& light, const Object& object) const;
@@ -128,6 +143,7 @@ public:
     const Mesh& withTangents(const Mesh& mesh) const;
 
 private:
+    Scene(const Scene& outer, Frame& frame, const Framebuffer& target, const glm::mat4& clipFromWorld);
     const Mesh& prepare(const Mesh& drawn, Fields vertexData, const float4x4* worldFromObject) const;
     Rectangle cellAt(int column, int columns, int row, int rows) const;
     void cut(const Viewport& viewport, const Rectangle& scissor) const;
