@@ -10,5 +10,6 @@
 #include "mesh/primitives.h"
 #include "pipeline/frame.h"
 #include "pipeline/save.h"
+#include "texture/cube_sampler.h"
 #include "texture/image.h"
 #include "texture/sampler.h"
