@@ -43,7 +43,9 @@ std::string programOf(const std::string& arguments)
 {
     const auto has = [&](const char* text) { return arguments.find(text) != std::string::npos; };
     std::string name = "relief";
-    if (arguments.starts_with("bench")) {
+    if (arguments.starts_with("import-environment")) {
+        name = "relief_import_environment";
+    } else if (arguments.starts_with("bench")) {
         name = has("--peer") ? "relief_bench_peer" : has("--stage") ? "relief_bench_stages" : "relief_bench";
     } else if (arguments.starts_with("report")) {
         std::stringstream words(arguments);
@@ -118,7 +120,8 @@ TEST_CASE("command line: help at every level, and the list of stages")
     const TemporaryFolder folder;
     CHECK(run(folder.path, "").out.find("gallery") != std::string::npos);
     CHECK(run(folder.path, "--help").code == 0);
-    for (const std::string command : {"list", "render", "gallery", "view", "hash", "explain", "bench", "report"}) {
+    for (const std::string command :
+         {"list", "render", "gallery", "view", "hash", "explain", "bench", "report", "import-environment"}) {
         const Outcome help = run(folder.path, command + " --help");
         CAPTURE(command);
         CHECK(help.code == 0);
