@@ -17,6 +17,7 @@
 
 #include "common/stage.h"
 #include "temporary_folder.h"
+#include "texture/cube_map.h"
 #include "texture/image.h"
 
 namespace {
@@ -705,6 +706,40 @@ TEST_CASE("command line: report stability runs the tests of a case and shows wha
     checkRefused(folder.path, "report stability --only S-10 --tests '" + tests + "'", {"no test has this id"});
     checkRefused(folder.path, "report stability --rounds 3 --tests '" + tests + "'", {"--rounds"});
     checkRefused(folder.path, "report triplanar --only S-601", {"--only"});
+}
+
+TEST_CASE(
+    "command line: import-environment writes the levels of a picture into one file, and refuses what it cannot use")
+{
+    const TemporaryFolder folder;
+    // Longitude and latitude, one colour.
+    std::vector<float> rgb;
+    for (int i = 0; i < 32 * 16; ++i) rgb.insert(rgb.end(), {1.0f, 0.5f, 4.0f});
+    REQUIRE(relief::writePfm(folder / "sky.pfm", 32, 16, rgb));
+    const Outcome outcome = run(folder.path, "import-environment sky.pfm --size 16 --samples 20 --threads 2");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out == "sky-prefiltered.hdr\n");
+    CHECK(outcome.err.empty());
+    CHECK(run(folder.path, "import-environment sky.pfm --size 16 --samples 20 -o sky2.pfm --threads 1").code == 0);
+    for (const char* name : {"sky-prefiltered.hdr", "sky2.pfm"}) {
+        const auto picture = relief::readImage(folder / name);
+        REQUIRE(picture);
+        const auto map = relief::CubeMap::fromPicture(*picture, relief::ColorSpace::linear);
+        REQUIRE(map);
+        CHECK(map->levelCount() == 3);  // 16, 8, 4
+        for (int k = 0; k < 3; ++k) CHECK(map->texel(k, 5, 3, 0) == glm::vec4(1.0f, 0.5f, 4.0f, 1.0f));
+    }
+
+    checkRefused(folder.path, "import-environment", {"file"});
+    checkRefused(folder.path, "import-environment nothing.hdr", {"nothing.hdr", "cannot open"});
+    checkRefused(folder.path, "import-environment sky2.pfm", {"sky2.pfm", "prefiltered already"});
+    checkRefused(folder.path, "import-environment sky.pfm -o sky.png", {"sky.png", ".hdr or .pfm"});
+    checkRefused(folder.path, "import-environment sky.pfm -o none/sky.hdr", {"none/sky.hdr", "folder"});
+    checkRefused(folder.path, "import-environment sky.pfm --size 7", {"--size"});
+    checkRefused(folder.path, "import-environment sky.pfm --samples 0", {"--samples"});
+    REQUIRE(relief::writePfm(folder / "wrong.pfm", 16, 32, rgb));
+    checkRefused(folder.path, "import-environment wrong.pfm", {"wrong.pfm", "16x32", "cross", "2:1"});
 }
 
 TEST_CASE("command line: report performance writes a text, a table and a plot")
