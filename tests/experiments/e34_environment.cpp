@@ -20,9 +20,11 @@ double radiance(const glm::dvec3& d)
     return sky + 120.0 * std::exp(-400.0 * (1.0 - glm::dot(d, sun)));
 }
 
-CubeMap radianceCube(int side)
+using Faces = std::array<ImageFile, kCubeFaces>;
+
+Faces radianceFaces(int side)
 {
-    std::array<ImageFile, kCubeFaces> faces;
+    Faces faces;
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const CubeFaceAxes& axes = kCubeFaceAxes[f];
         ImageFloat face{side, side, {}};
@@ -34,7 +36,12 @@ CubeMap radianceCube(int side)
         }
         faces[f] = std::move(face);
     }
-    return *CubeMap::fromFaces(faces, ColorSpace::linear);
+    return faces;
+}
+
+CubeMap radianceCube(int side)
+{
+    return *CubeMap::fromFaces(radianceFaces(side), ColorSpace::linear);
 }
 
 const CubeMap& allLevels()
@@ -225,7 +232,7 @@ Experiment environments(Effort effort)
     e.variants.push_back({"averages",
                           "",
                           [=] { return outcomeOf(radianceCube(side), levels, points(effort)); },
-                          {[=] { (void)prefilteredEnvironment(allLevels(), {.side = timedSide, .samples = 1}); },
+                          {[faces = radianceFaces(timedSide)] { (void)CubeMap::fromFaces(faces, ColorSpace::linear); },
                            static_cast<double>(texelCount(timedSide))}});
 
     for (const Reference& r : kReferences) {
