@@ -156,7 +156,7 @@ TEST_CASE("environment: levels are the integral of GGX, for smooth light")
     }
 }
 
-TEST_CASE("environment: a small sun is a highlight and no specks; levels of the radiance are what makes it so")
+TEST_CASE("environment: a small sun is a highlight and no specks, thanks to the levels of the radiance")
 {
     const CubeMap radiance = cubeOf(32, sunny);
     // The same without coarser levels.
