@@ -13,5 +13,6 @@
 #include "pipeline/target_texture.h"
 #include "shading/loop.h"
 #include "texture/comparison_sampler.h"
+#include "texture/cube_sampler.h"
 #include "texture/image.h"
 #include "texture/sampler.h"

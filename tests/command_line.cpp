@@ -17,6 +17,7 @@
 
 #include "common/stage.h"
 #include "temporary_folder.h"
+#include "texture/cube_map.h"
 #include "texture/image.h"
 
 namespace {
@@ -43,7 +44,9 @@ std::string programOf(const std::string& arguments)
 {
     const auto has = [&](const char* text) { return arguments.find(text) != std::string::npos; };
     std::string name = "relief";
-    if (arguments.starts_with("bench")) {
+    if (arguments.starts_with("import-environment")) {
+        name = "relief_import_environment";
+    } else if (arguments.starts_with("bench")) {
         name = has("--peer") ? "relief_bench_peer" : has("--stage") ? "relief_bench_stages" : "relief_bench";
     } else if (arguments.starts_with("report")) {
         std::stringstream words(arguments);
@@ -118,7 +121,8 @@ TEST_CASE("command line: help at every level, and the list of stages")
     const TemporaryFolder folder;
     CHECK(run(folder.path, "").out.find("gallery") != std::string::npos);
     CHECK(run(folder.path, "--help").code == 0);
-    for (const std::string command : {"list", "render", "gallery", "view", "hash", "explain", "bench", "report"}) {
+    for (const std::string command :
+         {"list", "render", "gallery", "view", "hash", "explain", "bench", "report", "import-environment"}) {
         const Outcome help = run(folder.path, command + " --help");
         CAPTURE(command);
         CHECK(help.code == 0);
@@ -702,6 +706,40 @@ TEST_CASE("command line: report stability runs the tests of a case and shows wha
     checkRefused(folder.path, "report stability --only S-10 --tests '" + tests + "'", {"no test has this id"});
     checkRefused(folder.path, "report stability --rounds 3 --tests '" + tests + "'", {"--rounds"});
     checkRefused(folder.path, "report triplanar --only S-601", {"--only"});
+}
+
+TEST_CASE(
+    "command line: import-environment writes the levels of a picture into one file, and refuses what it cannot use")
+{
+    const TemporaryFolder folder;
+    // Longitude and latitude, one colour.
+    std::vector<float> rgb;
+    for (int i = 0; i < 32 * 16; ++i) rgb.insert(rgb.end(), {1.0f, 0.5f, 4.0f});
+    REQUIRE(relief::writePfm(folder / "sky.pfm", 32, 16, rgb));
+    const Outcome outcome = run(folder.path, "import-environment sky.pfm --size 16 --samples 20 --threads 2");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out == "sky-prefiltered.hdr\n");
+    CHECK(outcome.err.empty());
+    CHECK(run(folder.path, "import-environment sky.pfm --size 16 --samples 20 -o sky2.pfm --threads 1").code == 0);
+    for (const char* name : {"sky-prefiltered.hdr", "sky2.pfm"}) {
+        const auto picture = relief::readImage(folder / name);
+        REQUIRE(picture);
+        const auto map = relief::CubeMap::fromPicture(*picture, relief::ColorSpace::linear);
+        REQUIRE(map);
+        CHECK(map->levelCount() == 3);  // 16, 8, 4
+        for (int k = 0; k < 3; ++k) CHECK(map->texel(k, 5, 3, 0) == glm::vec4(1.0f, 0.5f, 4.0f, 1.0f));
+    }
+
+    checkRefused(folder.path, "import-environment", {"file"});
+    checkRefused(folder.path, "import-environment nothing.hdr", {"nothing.hdr", "cannot open"});
+    checkRefused(folder.path, "import-environment sky2.pfm", {"sky2.pfm", "prefiltered already"});
+    checkRefused(folder.path, "import-environment sky.pfm -o sky.png", {"sky.png", ".hdr or .pfm"});
+    checkRefused(folder.path, "import-environment sky.pfm -o none/sky.hdr", {"none/sky.hdr", "folder"});
+    checkRefused(folder.path, "import-environment sky.pfm --size 7", {"--size"});
+    checkRefused(folder.path, "import-environment sky.pfm --samples 0", {"--samples"});
+    REQUIRE(relief::writePfm(folder / "wrong.pfm", 16, 32, rgb));
+    checkRefused(folder.path, "import-environment wrong.pfm", {"wrong.pfm", "16x32", "cross", "2:1"});
 }
 
 TEST_CASE("command line: report performance writes a text, a table and a plot")

@@ -504,3 +504,33 @@ TEST_CASE("image: PFM is little-endian, bottom row first")
     const std::string top = std::string("\0\0\x80\x3f\0\0\0\x40\0\0\x40\x40", 12);
     CHECK(bytesOf(folder / "a.pfm") == header + bottom + top);
 }
+
+TEST_CASE("image: what is written as HDR comes back within 1/255 of a pixel's largest channel")
+{
+    const TemporaryFolder folder;
+    std::vector<float> rgb = {0.0f,    0.0f,   0.0f,   1.0f,  0.5f,          0.25f,   255.0f,
+                              255.4f,  255.6f, -3.0f,  1e-3f, std::nanf(""), 1.7e38f, 1e30f,
+                              3.4e38f, 1e-45f, 1e-39f, 0.0f,  2.01f,         2.02f,   2.03f};
+    for (int i = 0; i < 600; ++i) rgb.push_back(std::ldexp(static_cast<float>(i * 37 % 101), i % 200 - 100));
+    const int width = static_cast<int>(rgb.size()) / 3;
+    REQUIRE(writeHdr(folder / "p.hdr", width, 1, rgb));
+    const auto read = readImage(folder / "p.hdr");
+    REQUIRE(read);
+    const auto& image = std::get<ImageFloat>(*read);
+    REQUIRE(image.width == width);
+    constexpr float kLargest = 0x1.fep126f;
+    for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+        float largest = 0.0f;
+        const auto wanted = [&](std::size_t c) {
+            return std::min(rgb[i * 3 + c] > 0.0f ? rgb[i * 3 + c] : 0.0f, kLargest);
+        };
+        for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, wanted(c));
+        for (std::size_t c = 0; c < 3; ++c) {
+            CAPTURE(i);
+            CHECK(std::abs(image.pixels[i * 4 + c] - wanted(c)) <= largest / 255.0f + 1e-38f);
+        }
+    }
+    CHECK(errorOf(folder / "no") != "");
+    CHECK(!writeHdr(folder / "wrong.hdr", 2, 2, rgb).has_value());
+    CHECK(!writeHdr(folder / "missing/p.hdr", width, 1, rgb).has_value());
+}

@@ -6,6 +6,7 @@
 //   image            row 0 on top; pixel centres at .5; SV_POSITION.xy counts pixels from the upper left corner
 //   front face       clockwise on screen
 //   uv               (0, 0) is the lower left corner of the picture
+//   cube map         faces +x, -x, +y, -y, +z, -z, turned as Direct3D has them: texture/cube_face.h
 //   normal map       +Y: green is up, along +v
 //   tangent.w        -1 or +1; binormal = cross(normal, tangent.xyz) * tangent.w * unity_WorldTransformParams.w
 //   lighting         in linear colour: albedo textures are decoded from sRGB, heights and normals never are

@@ -147,8 +147,13 @@ template <class Fetch, class Modes>
     return Fetch::bilinear(level, texelIndex(level, at.x, at.y), at.fx, at.fy);
 }
 
-template <class Fetch, class Modes>
-[[gnu::always_inline]] inline float4 sampleLevel(const Place<Modes>& place, const MipLevel& level)
+// --- on one or several levels, of textures and of cube maps ---
+//
+// A place is one on a texture, a Place, or one on a cube map (cube_sampler.cpp): it has `sampler` and `texture`, and
+// the functions of its own above, pairsOn, nearestOn, bilinearOn and leavesOutAlpha.
+
+template <class Fetch, class SomePlace>
+[[gnu::always_inline]] inline float4 sampleLevel(const SomePlace& place, const MipLevel& level)
 {
     if (place.sampler.filter == Filter::nearest) return nearestOn<Fetch>(place, level);
     const Pairs at = pairsOn(place, level);
@@ -156,12 +161,10 @@ template <class Fetch, class Modes>
                                         : bilinearOn<Fetch>(place, level, at);
 }
 
-// --- on several levels ---
-
 // Both levels' texels are located before the first is fetched: the processor has something to do while the first
 // addresses are on their way through memory.
-template <class Fetch, class Modes>
-[[gnu::always_inline]] inline float4 sampleBetween(const Place<Modes>& place, const MipLevel& finer,
+template <class Fetch, class SomePlace>
+[[gnu::always_inline]] inline float4 sampleBetween(const SomePlace& place, const MipLevel& finer,
                                                    const MipLevel& coarser, Float t)
 {
     const Pairs onFiner = pairsOn(place, finer), onCoarser = pairsOn(place, coarser);
@@ -172,8 +175,8 @@ template <class Fetch, class Modes>
 
 // Level k for all lanes, and with the trilinear filter the part of level k + 1 that `fraction` (0..255) says; `lanes`
 // are those that the result is for.
-template <class Fetch, class Modes>
-[[gnu::always_inline]] inline float4 sampleLevels(const Place<Modes>& place, int k, Int fraction, unsigned lanes)
+template <class Fetch, class SomePlace>
+[[gnu::always_inline]] inline float4 sampleLevels(const SomePlace& place, int k, Int fraction, unsigned lanes)
 {
     const MipLevel& finer = place.texture.level(k);
     const bool hasOneLevel =
@@ -188,8 +191,8 @@ template <class Fetch, class Modes>
 }
 
 // Every lane on its own level: one round per distinct level.
-template <class Fetch, class Modes>
-[[gnu::noinline]] float4 sampleSeveralLevels(Place<Modes> place, Int level, Int fraction)
+template <class Fetch, class SomePlace>
+[[gnu::noinline]] float4 sampleSeveralLevels(SomePlace place, Int level, Int fraction)
 {
     std::int32_t levels[kLanes];
     level.store(levels);
@@ -208,8 +211,8 @@ template <class Fetch, class Modes>
 //
 // `guess` is the level that a caller expects, 0..levels - 1. It changes no result: where all lanes are on it, as they
 // mostly are, the processor predicts the branch and is at the texels before the logarithm in `lod` is done.
-template <class Fetch, class Modes>
-[[gnu::always_inline]] inline float4 sampleMipLevels(const Place<Modes>& place, Int lod, int guess)
+template <class Fetch, class SomePlace>
+[[gnu::always_inline]] inline float4 sampleMipLevels(const SomePlace& place, Int lod, int guess)
 {
     const bool trilinear = place.sampler.filter == Filter::trilinear;
     const Int level = (trilinear ? lod : lod + kLodOne / 2) >> kLodBits;

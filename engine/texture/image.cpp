@@ -3,7 +3,9 @@
 #include "texture/image.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -22,6 +24,7 @@
 #include "memory.h"
 #include "texture/full_palette.h"
 #include "texture/jpeg_check.h"
+#include "texture/pfm.h"
 #include "texture/tga_check.h"
 #include "texture/unsupported.h"
 
@@ -175,7 +178,7 @@ tl::unexpected<Error> failHeader(const std::string& name, const Bytes& bytes)
     const Expected<ImageFile> image = decode<std::uint8_t>(name, bytes, {}, stbi_load_from_callbacks);
     if (lastReason() == "too large") return fail(name + ": a side is larger than " + limit + "; scale it down");
     if (lastReason() == kNotAnImage) {
-        return fail(name + ": is not a PNG, JPEG, TGA, BMP or HDR image; convert it to PNG");
+        return fail(name + ": is not a PNG, JPEG, TGA, BMP, HDR or PFM image; convert it to PNG");
     }
     return tl::unexpected(image.error());
 }
@@ -202,6 +205,7 @@ Expected<ImageFile> readImage(const std::string& path)
     Expected<Bytes> file = readFile(path);
     if (!file) return tl::unexpected(file.error());
     Bytes& bytes = *file;
+    if (isPfm(bytes)) return decodePfm(path, bytes);
     if (const std::string what = unsupportedFeature(bytes); !what.empty()) return failUnsupported(path, what);
     fillPalette(bytes);
     if (!jpegTablesFit(bytes)) return fail(path + ": is damaged (bad Huffman table); copy or export it again");
@@ -272,6 +276,47 @@ Expected<void> writePfm(const std::string& path, int width, int height, std::spa
             const auto bits = std::bit_cast<std::uint32_t>(value);
             for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
         }
+    }
+    return writeFileAtomically(path, bytes);
+}
+
+namespace {
+
+// Three mantissas of 8 bits and the exponent of the largest, rounded to nearest (Ward 1991): colour = mantissa *
+// 2^(exponent - 136). Of a number above 0 the largest mantissa is 128 or more, so no pixel looks like the mark of a
+// compressed row.
+std::array<std::uint8_t, 4> toRgbe(const float* rgb)
+{
+    constexpr float kLargest = 0x1.fep126f;  // 255 * 2^119
+    std::array<float, 3> color;
+    for (std::size_t c = 0; c < 3; ++c) color[c] = rgb[c] > 0.0f ? std::min(rgb[c], kLargest) : 0.0f;
+    int exponent = 0;
+    const float largest = std::max({color[0], color[1], color[2]});
+    const float fraction = std::frexp(largest, &exponent);
+    if (fraction >= 255.5f / 256.0f) ++exponent;  // else its mantissa would be 256
+    if (largest == 0.0f || exponent < -127) return {0, 0, 0, 0};
+    std::array<std::uint8_t, 4> pixel;
+    for (std::size_t c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>(std::ldexp(color[c], 8 - exponent) + 0.5f);
+    pixel[3] = static_cast<std::uint8_t>(exponent + 128);
+    return pixel;
+}
+
+}  // namespace
+
+Expected<void> writeHdr(const std::string& path, int width, int height, std::span<const float> rgb)
+{
+    const DefaultFloatingPoint environment;
+    if (const Expected<void> checked = checkWrite(path, width, height, rgb.size(), 3); !checked) return checked;
+    const std::string header =
+        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " + std::to_string(width) + "\n";
+    if (!fitsInMemory(header.size() + rgb.size() / 3 * 4)) {
+        return fail(path + ": not enough memory for the file; scale it down");
+    }
+    Bytes bytes(header.begin(), header.end());
+    bytes.reserve(bytes.size() + rgb.size() / 3 * 4);
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+        const std::array<std::uint8_t, 4> pixel = toRgbe(&rgb[i]);
+        bytes.insert(bytes.end(), pixel.begin(), pixel.end());
     }
     return writeFileAtomically(path, bytes);
 }

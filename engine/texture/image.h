@@ -1,6 +1,6 @@
-// Image files in and out. Read: PNG (8 and 16 bit), JPEG, TGA, BMP and Radiance HDR, always as four channels, row 0 on
-// top. Written: PNG for pictures, PFM for float buffers. The numbers are the file's own: whether they are sRGB colours,
-// heights or normals is decided where a texture is made of them.
+// Image files in and out. Read: PNG (8 and 16 bit), JPEG, TGA, BMP, Radiance HDR and PFM, always as four channels, row
+// 0 on top. Written: PNG for pictures, HDR and PFM for floats. The numbers are the file's own: whether they are sRGB
+// colours, heights or normals is decided where a texture is made of them.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ using Image8 = ImageOf<std::uint8_t>;
 using Image16 = ImageOf<std::uint16_t>;
 using ImageFloat = ImageOf<float>;  // linear, finite, at most about 1.7e38; alpha is 1
 
-// 8-bit files of every format, 16-bit PNG, HDR.
+// 8-bit files of every format, 16-bit PNG, HDR and PFM.
 using ImageFile = std::variant<Image8, Image16, ImageFloat>;
 
 inline constexpr int kMaxImageSide = 16384;                                   // pixels, D3D's own limit for textures
@@ -47,5 +47,10 @@ Expected<void> writePng(const std::string& path, int width, int height, std::spa
 // Writes RGB floats, row 0 on top, as little-endian PFM, bit for bit (NaN and infinity too), through
 // writeFileAtomically. An error as in writePng, with three channels.
 Expected<void> writePfm(const std::string& path, int width, int height, std::span<const float> rgb);
+
+// Writes RGB floats, row 0 on top, as Radiance HDR (RGBE, not compressed), through writeFileAtomically. A channel is
+// rounded to 1/255 of the pixel's largest at most; negative numbers and NaN become 0, and what is beyond 1.69e38
+// becomes that. An error as in writePfm.
+Expected<void> writeHdr(const std::string& path, int width, int height, std::span<const float> rgb);
 
 }  // namespace relief

@@ -106,6 +106,28 @@ MipLevel levelFromPicture(const ImageFile& picture, ColorSpace meaning)
     return levelFromRgbaFloat(image.width, image.height, image.pixels);
 }
 
+glm::vec4 readTexel(TexelFormat format, const MipLevel& level, int x, int y)
+{
+    glm::vec4 r;
+    for (int c = 0; c < 4; ++c) {
+        switch (format) {
+            case TexelFormat::rgba8:
+                r[c] = static_cast<float>(level.texel<std::uint8_t>(x, y)[c]) / 255.0f;
+                break;
+            case TexelFormat::rgba16:
+                r[c] = static_cast<float>(level.texel<std::uint16_t>(x, y)[c]) / 65535.0f;
+                break;
+            case TexelFormat::rgba32Float:
+                r[c] = level.texel<float>(x, y)[c];
+                break;
+            case TexelFormat::r32Float:
+                r[c] = c == 0 ? *level.texel<float>(x, y) : c == 3 ? 1.0f : 0.0f;
+                break;
+        }
+    }
+    return r;
+}
+
 // Decoding takes a fifth root per number, so every code is decoded once per process.
 std::uint16_t decodeSrgb16(std::uint16_t code)
 {

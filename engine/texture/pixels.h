@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 
+#include <glm/vec4.hpp>
+
 #include "texture/color_space.h"
 #include "texture/image.h"
 #include "texture/mip_chain.h"
@@ -29,6 +31,9 @@ MipLevel levelFromRgba16(int width, int height, std::span<const std::uint16_t> r
 MipLevel levelFromRgbaFloat(int width, int height, std::span<const float> rgba);
 MipLevel levelFromRed(int width, int height, std::span<const float> red);
 MipLevel levelFromPicture(const ImageFile& picture, ColorSpace meaning);
+
+// A texel of a level as a fetch gives it: UNORM codes in 0..1. x and y as MipLevel::texel takes them.
+glm::vec4 readTexel(TexelFormat format, const MipLevel& level, int x, int y);
 
 // 16-bit linear light to the 16-bit sRGB code and back, from tables: linearToSrgb and srgbToLinear16 (color_space.h).
 std::uint16_t encodeSrgb16(std::uint16_t linear);

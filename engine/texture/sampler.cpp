@@ -7,9 +7,8 @@
 #include "hlsl/derivatives.h"
 #include "hlsl/intrinsics.h"
 #include "leave_out.h"
-#include "texture/filter.h"
 #include "texture/level_of_detail.h"
-#include "texture/shading_scope.h"
+#include "texture/sampler_steps.h"
 
 namespace relief::inline RELIEF_WIDTH {
 namespace {
@@ -17,23 +16,6 @@ namespace {
 inline const Texture& textureOf(const sampler2D& s)
 {
     return s.texture ? *s.texture : Texture::white();
-}
-
-// `lod` after bias, NaN included, limited by the sampler (minLod wins where it is above maxLod) and to `levels`, those
-// that exist. NaN becomes the upper limit.
-inline Float limitedLevel(const sampler2D& s, int levels, Float lod)
-{
-    const auto last = static_cast<float>(levels - 1);
-    const float low = std::min(std::max(0.0f, s.minLod), last);  // std::max and std::min give the first where the
-    const float high = std::max(low, std::min(last, s.maxLod));  // second is NaN
-    return Float(native::max(native::min(lod.value, Float(high).value), Float(low).value));
-}
-
-// What sampleMipLevels takes.
-inline Int fixedLevel(const sampler2D& s, const Texture& texture, Float lod)
-{
-    const Float limited = limitedLevel(s, texture.levelCount(), lod);
-    return Int(native::roundToInt((limited * static_cast<float>(kLodOne)).value));
 }
 
 // --- one function per texel format and kind of address modes ---
@@ -94,47 +76,7 @@ inline void sampleMipChain(float4& result, const sampler2D& s, const Texture& te
         });
 }
 
-// --- counting (see fetch_counters.h) ---
-
-inline std::uint64_t countOf(unsigned lanes)
-{
-    return static_cast<std::uint64_t>(countBits(lanes));
-}
-
-inline bool isAnisotropic(const sampler2D& s)
-{
-    return s.maxAnisotropy > 1 && s.filter == Filter::trilinear;
-}
-
-inline void countSample(const sampler2D& s)
-{
-    const std::uint64_t n = countOf(shading.activeLanes);
-    if (isAnisotropic(s))
-        shading.fetches.anisotropic += n;
-    else if (s.filter == Filter::trilinear)
-        shading.fetches.trilinear += n;
-    else if (s.filter == Filter::bilinear)
-        shading.fetches.bilinear += n;
-    else
-        shading.fetches.nearest += n;
-}
-
-inline void countOneLevel(const sampler2D& s, unsigned onFinest, unsigned onOneLevel)
-{
-    shading.fetches.magnified += countOf(onFinest & shading.activeLanes);
-    if (s.filter == Filter::trilinear) shading.fetches.secondLevelSkipped += countOf(onOneLevel & shading.activeLanes);
-}
-
-// Lanes of which one level is enough, with the bit kWatched where it is set: 0 in most blocks.
-inline unsigned lanesOnOneLevel(Int fixed)
-{
-    return shading.activeLanes & ~((fixed & (kLodOne - 1)) > 0).bits();
-}
-
-inline void countNoDerivatives()
-{
-    shading.fetches.noDerivatives += countOf(shading.activeLanes);
-}
+// --- counting (see sampler_steps.h) ---
 
 inline void countFinest(const sampler2D& s)
 {
@@ -145,11 +87,7 @@ inline void countFinest(const sampler2D& s)
 
 // --- the level of detail ---
 
-// The bias of the sampler and of a call, within D3D's limits (7.18.10).
-inline Float limitBias(const sampler2D& s, Float bias)
-{
-    return clamp(bias + s.lodBias, -16.0f, 15.99f);
-}
+// Of a bias that is the same in all lanes.
 inline float limitBias(const sampler2D& s, float bias)
 {
     const float sum = bias + s.lodBias;
@@ -200,14 +138,6 @@ inline int likelyLevel(const sampler2D& s, const Texture& texture, Float square)
     return std::clamp(level, 0, texture.levelCount() - 1);
 }
 
-// For an instrument: Shading::levels.
-inline void noteLevels(const sampler2D& s, Int fixed)
-{
-    const Int level = s.filter == Filter::trilinear ? fixed : (fixed + kLodOne / 2) & -kLodOne;
-    const Int before = Int::load(shading.levels);
-    select(Mask::fromBits(shading.activeLanes & kAllLanes), max(before, level), before).store(shading.levels);
-}
-
 // Where the instrument listens, the rest of a sample is a call, so that it takes no registers of the others.
 [[gnu::noinline, gnu::cold]] void sampleWatched(float4& result, const sampler2D& s, const Texture& texture, Float u,
                                                 Float v, Int fixed)
@@ -221,7 +151,7 @@ template <class Finest, class MipChain, class Watched>
 [[gnu::always_inline]] inline void sampleAtLevel(const sampler2D& s, const Texture& texture, Float lod, int guess,
                                                  const Finest& finest, const MipChain& mipChain, const Watched& watched)
 {
-    const Int fixed = fixedLevel(s, texture, lod);
+    const Int fixed = fixedLevel(s, texture.levelCount(), lod);
     const unsigned onFinest = (fixed == 0).bits();
     countSample(s);
     if (const unsigned onOneLevel = lanesOnOneLevel(fixed); onOneLevel != 0) {
@@ -308,7 +238,7 @@ template <class Fetch, class Modes>
 
     const auto limit = static_cast<float>(std::min(s.maxAnisotropy, 16));
     const AnisotropicFootprint footprint = anisotropicFootprint(dX, dY, limit);
-    const Int fixed = fixedLevel(s, texture, footprint.lod + wholeBias);
+    const Int fixed = fixedLevel(s, texture.levelCount(), footprint.lod + wholeBias);
     countSample(s);
     if ((shading.activeLanes & kWatched) != 0) noteLevels(s, fixed);
     if (const unsigned onOneLevel = lanesOnOneLevel(fixed); onOneLevel != 0)

@@ -245,6 +245,26 @@ void addReportOptions(CLI::App& command, ReportOptions& options)
         ->type_name("DIR");
 }
 
+void addImportEnvironmentOptions(CLI::App& command, ImportEnvironmentOptions& options)
+{
+    command
+        .add_option("file", options.file,
+                    "A picture of all directions: a cross (4:3 or 3:4), six faces in a strip (6:1 or 1:6; +x, -x, +y, "
+                    "-y, +z, -z), or longitude and latitude (2:1); HDR, PFM, or 8 or 16 bits of sRGB")
+        ->required();
+    command
+        .add_option("-o,--output", options.output,
+                    "The file, .hdr or .pfm; default: the picture's name and -prefiltered.hdr")
+        ->type_name("FILE");
+    command.add_option("--size", options.size, "The side of the finest level's faces, in texels")
+        ->check(CLI::Range(8, 2048))
+        ->capture_default_str();
+    command.add_option("--samples", options.samples, "Directions for each texel")
+        ->check(CLI::Range(1, 65536))
+        ->capture_default_str();
+    command.add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
+}
+
 Expected<void> reportWith(const ReportOptions& options, const Program& program)
 {
     const Expected<ReportOptions> complete = completeReport(options);
@@ -337,6 +357,12 @@ int runProgram(int argc, char** argv, const Program& program)
     addBenchOptions(*command, benchOptions, peerOptions, liveOptions);
     command->allow_extras();
     command->callback([&, command] { result = benchWith(*command, benchOptions, peerOptions, liveOptions, program); });
+
+    command = app.add_subcommand("import-environment",
+                                 "Prefilters a picture of all directions for reflections by roughness, into one file");
+    ImportEnvironmentOptions environmentOptions;
+    addImportEnvironmentOptions(*command, environmentOptions);
+    command->callback([&] { run("import-environment", program.importEnvironment, environmentOptions); });
 
     command = app.add_subcommand("report", "Measures what a chapter claims, and writes it down: text, table and plot");
     ReportOptions reportOptions;

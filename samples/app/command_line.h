@@ -23,6 +23,7 @@ struct Program
     Expected<void> (*benchStages)(const BenchOptions& options) = nullptr;
     Expected<void> (*benchLive)(const LiveBenchOptions& options) = nullptr;
     Expected<void> (*benchPeer)(const PeerOptions& options) = nullptr;
+    Expected<void> (*importEnvironment)(const ImportEnvironmentOptions& options) = nullptr;
     const char* reportName = "";
     Expected<void> (*report)(const ReportOptions& options) = nullptr;  // of that name
 };

@@ -63,6 +63,13 @@ struct PeerOptions
     std::string alone;  // "relief" or "mesa": that one draws one frame of a scene, and nothing is measured
 };
 
+// What `import-environment` reads and writes.
+struct ImportEnvironmentOptions
+{
+    std::string file, output;  // empty output: the file's name and "-prefiltered.hdr"
+    int size = 128, samples = 1024, threads = 0;
+};
+
 // What `report` measures, and where the files go.
 struct ReportOptions
 {

@@ -38,6 +38,7 @@ Experiment leaveOut(Effort effort);
 Experiment visibilityAndFresnel(Effort effort);
 Experiment snapping(Effort effort);
 Experiment litScene(Effort effort);
+Experiment environments(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
