@@ -20,6 +20,7 @@
 
 #include "file.h"
 #include "temporary_folder.h"
+#include "texture/import.h"
 
 using namespace relief;
 
@@ -178,6 +179,29 @@ TEST_CASE("image: 16-bit PNG keeps its 16 bits")
     REQUIRE(std::holds_alternative<Image16>(*image));
     const std::vector<std::uint16_t> expected = {0, 0, 0, 65535, 258, 258, 258, 65535, 65535, 65535, 65535, 65535};
     CHECK(std::get<Image16>(*image).pixels == expected);
+}
+
+TEST_CASE("image: the bytes of a file are read as the file is, and errors begin with the name that they are given")
+{
+    const std::string file = png16(3, 1, {0, 258, 65535});
+    const Expected<ImageFile> image = decodeImage({file.begin(), file.end()}, "a.glb: images[2]");
+    REQUIRE(image.has_value());
+    CHECK(std::get<Image16>(*image).pixels[4] == 258);
+    const Expected<ImageFile> cut = decodeImage({file.begin(), file.end() - 30}, "a.glb: images[2]");
+    REQUIRE(!cut.has_value());
+    CHECK(cut.error().message.starts_with("a.glb: images[2]: is "));
+}
+
+TEST_CASE("image: a 16-bit PNG becomes a texture of 16 bits, code by code")
+{
+    const TemporaryFolder folder;
+    const Expected<std::shared_ptr<const Texture>> texture =
+        importTexture(folder.write("a.png", png16(4, 1, {0, 1, 32769, 65535})).string(),
+                      {.colorSpace = ColorSpace::linear});
+    REQUIRE(texture.has_value());
+    CHECK((*texture)->format() == TexelFormat::rgba16);
+    int x = 0;
+    for (const float code : {0.0f, 1.0f, 32769.0f, 65535.0f}) CHECK((*texture)->texel(x++, 0).x == code / 65535.0f);
 }
 
 TEST_CASE("image: TGA and BMP, whose first row is the lowest, come with row 0 on top")
