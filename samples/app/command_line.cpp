@@ -319,7 +319,8 @@ int runProgram(int argc, char** argv, const Program& program)
     command->add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
     command->callback([&] { run("gallery", program.gallery, folder, options.threads); });
 
-    command = app.add_subcommand("view", "Shows a stage in a window, and again whenever its file is saved");
+    command = app.add_subcommand(
+        "view", "Shows a stage in a window, and again whenever its file is saved, or a scene of a .gltf or .glb file");
     ViewOptions viewOptions;
     addInputOptions(*command, viewOptions.render);
     addShowOption(*command, viewOptions.render.show);

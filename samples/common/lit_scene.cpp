@@ -249,25 +249,29 @@ LitScene::View LitScene::view(float aspect) const
     return {clipFromView(camera, aspect) * viewFromWorld(camera), camera.position};
 }
 
-void LitScene::draw(Frame& frame, const SceneInstance& instance, const View& view, const Surroundings& light) const
+void LitScene::draw(Frame& frame, const SceneInstance& instance, const View& from, const Surroundings& light) const
 {
     const Mesh& mesh = scene.meshes[instance.mesh];
     const SceneMaterial& material = scene.materials[instance.material];
-    const ObjectTransform object(view.clipFromWorld, worldFromScene * instance.worldFromObject);
+    const ObjectTransform object(from.clipFromWorld, worldFromScene * instance.worldFromObject);
     const Float mirror = object.unity_WorldTransformParams.w;
     frame.setFrontCounterClockwise(instance.mirrored);
     if (material.hasNormalMap()) {
-        drawMesh<true>(frame, mesh, object, {material, light, broadcast(view.position), mirror, 1.0f});
+        drawMesh<true>(frame, mesh, object, {material, light, broadcast(from.position), mirror, 1.0f});
     } else {
-        drawMesh<false>(frame, mesh, object, {material, light, broadcast(view.position), mirror, 1.0f});
+        drawMesh<false>(frame, mesh, object, {material, light, broadcast(from.position), mirror, 1.0f});
     }
 }
 
 Expected<void> LitScene::record(Frame& frame, int width, int height, const Surroundings& light) const
 {
-    const View from = view(static_cast<float>(width) / static_cast<float>(height));
     frame.reset();
     frame.clear(kBackground);
+    return draw(frame, view(static_cast<float>(width) / static_cast<float>(height)), light);
+}
+
+Expected<void> LitScene::draw(Frame& frame, const View& from, const Surroundings& light) const
+{
     std::vector<std::pair<float, const SceneInstance*>> blended;  // by squared distance
     for (const SceneInstance& instance : scene.instances) {
         if (scene.materials[instance.material].alpha == SceneMaterial::Alpha::blend) {
