@@ -173,6 +173,17 @@ TEST_CASE("gltf: without normals every triangle is flat, and normals of length z
     CHECK(read(zero).meshes[0].normals == std::vector<glm::vec3>{{0, 0, 1}, {0, 0.6f, 0.8f}, {0, 0, 1}, {0, 0, 1}});
 }
 
+TEST_CASE("gltf: of vertices that primitives share each has those that it uses")
+{
+    GltfFile file = GltfFile::square();
+    file.primitive()["indices"] = file.accessor<std::uint8_t>("SCALAR", {3, 2, 1});
+    const Mesh mesh = read(file).meshes[0];
+    CHECK(mesh.positions == std::vector<glm::vec3>{{-1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
+    CHECK(mesh.uvs == std::vector<glm::vec2>{{1, 0}, {0, 1}, {1, 1}});
+    CHECK(mesh.indices == std::vector<std::uint32_t>{2, 0, 1});
+    CHECK(mesh.streams[0].floats.size() == 6);
+}
+
 TEST_CASE("gltf: tangents that a file gives are those that are made of its uvs")
 {
     for (const bool mirrored : {false, true}) {
@@ -475,7 +486,7 @@ TEST_CASE("gltf: data that is out of its bounds, or not what it should be")
         return error([&](File& f) { f.json["accessors"][i][what] = value; });
     };
     CHECK(contains(accessor(0, "count", 5), "accessors[0]: 5 elements from byte 0 take 60 bytes"));
-    CHECK(contains(accessor(0, "count", 2147483647), "POSITION: are too many"));
+    CHECK(contains(accessor(0, "count", 2147483647), "POSITION: the scene has more than"));
     CHECK(contains(accessor(0, "count", 4294967296), "accessors[0].count is larger than 2147483647"));
     CHECK(contains(accessor(0, "byteOffset", 4), "accessors[0]: 4 elements from byte 4"));
     CHECK(contains(accessor(0, "byteOffset", -4), "accessors[0].byteOffset is negative"));
@@ -485,7 +496,7 @@ TEST_CASE("gltf: data that is out of its bounds, or not what it should be")
     CHECK(contains(accessor(0, "componentType", 5124), "accessors[0].componentType: there is no type 5124"));
     CHECK(contains(accessor(3, "componentType", 5122), "accessors[3].componentType: "));
     CHECK(contains(accessor(1, "count", 3), "attributes.NORMAL: has 3 elements for 4 positions"));
-    CHECK(contains(accessor(3, "count", 2147483647), "indices: are too many"));
+    CHECK(contains(accessor(3, "count", 2147483647), "indices: the scene has more than"));
     CHECK(contains(error([](File& f) { f.json["bufferViews"][0]["byteLength"] = 1000; }),
                    "bufferViews[0]: bytes 0 to 1000"));
     CHECK(

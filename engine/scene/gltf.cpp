@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -184,13 +185,35 @@ void makeFlat(Attributes& all, std::vector<std::uint32_t>& indices)
     all.normals = std::move(mesh.normals);
 }
 
+// Only the vertices that some index names: primitives often share one large list.
+void keepUsed(Attributes& all, std::vector<std::uint32_t>& indices)
+{
+    constexpr std::uint32_t kUnused = 0xffffffffu;
+    std::vector<std::uint32_t> newIndex(all.positions.size(), kUnused), used;
+    for (const std::uint32_t index : indices) newIndex[index] = 0;
+    for (std::uint32_t i = 0; i < newIndex.size(); ++i) {
+        if (newIndex[i] == kUnused) continue;
+        newIndex[i] = static_cast<std::uint32_t>(used.size());
+        used.push_back(i);
+    }
+    if (used.size() == newIndex.size()) return;
+    for (std::uint32_t& index : indices) index = newIndex[index];
+    gather(all.positions, used);
+    gather(all.normals, used);
+    gather(all.tangents, used);
+    gather(all.colors, used);
+    gather(all.uvs[0], used);
+    gather(all.uvs[1], used);
+}
+
 // Of unit length; smooth where the file has one of length zero.
-void repairNormals(std::vector<glm::vec3>& normals, const Attributes& all, const std::vector<std::uint32_t>& indices)
+void repairNormals(Attributes& all, const std::vector<std::uint32_t>& indices)
 {
     std::vector<glm::vec3> computed;
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-        normals[i] = normalizedOrZero(normals[i]);
-        if (normals[i] != glm::vec3(0)) continue;
+    for (std::size_t i = 0; i < all.normals.size(); ++i) {
+        glm::vec3& normal = all.normals[i];
+        normal = normalizedOrZero(normal);
+        if (normal != glm::vec3(0)) continue;
         if (computed.empty()) {
             Mesh mesh;
             mesh.positions = all.positions;
@@ -198,7 +221,7 @@ void repairNormals(std::vector<glm::vec3>& normals, const Attributes& all, const
             computeNormals(mesh);
             computed = std::move(mesh.normals);
         }
-        normals[i] = computed[i];
+        normal = computed[i];
     }
 }
 
@@ -209,6 +232,40 @@ void exchangeUvs(Mesh& mesh)
     for (const glm::vec2& uv : mesh.uvs) first.insert(first.end(), {uv.x, uv.y});
     mesh.uvs = vectorsOf<glm::vec2>(mesh.streams[0].floats);
     mesh.streams[0].floats = std::move(first);
+}
+
+// The mesh that SceneFile promises.
+Expected<Mesh> complete(Attributes all, std::vector<std::uint32_t> indices, const SceneMaterial& material)
+{
+    const std::size_t count = all.positions.size();
+    for (std::vector<glm::vec2>& uvs : all.uvs) uvs.resize(count, glm::vec2(0.0f));
+    all.colors.resize(count, glm::vec4(1.0f));
+    Mesh mesh;
+    mesh.positions = std::move(all.positions);
+    mesh.normals = std::move(all.normals);
+    mesh.uvs = std::move(all.uvs[0]);
+    mesh.colors = std::move(all.colors);
+    mesh.indices = std::move(indices);
+    mesh.streams.push_back({.semantic = "TEXCOORD", .index = 1, .components = 2, .floats = {}, .integers = {}});
+    std::vector<float>& second = mesh.streams[0].floats;
+    for (const glm::vec2& uv : all.uvs[1]) second.insert(second.end(), {uv.x, uv.y});
+    if (!material.hasNormalMap()) return mesh;
+    if (!all.tangents.empty()) {
+        mesh.tangents = std::move(all.tangents);
+        return mesh;
+    }
+    const bool ofSecond = material.normalTexture.uvSet == 1;
+    if (ofSecond) exchangeUvs(mesh);
+    Expected<Mesh> made = withTangents(std::move(mesh));
+    if (made && ofSecond) exchangeUvs(*made);
+    return made;
+}
+
+tl::unexpected<Error> failTooLarge(const std::string& field)
+{
+    return fail(field + ": the scene has more than " + std::to_string(kMaxSceneVertices) + " vertices or " +
+                std::to_string(kMaxSceneIndices) + " indices, or reads more than " + std::to_string(kMaxReadVertices) +
+                " vertices; simplify it");
 }
 
 // --- the file ---
@@ -238,7 +295,9 @@ private:
     Expected<void> addMesh(const tinygltf::Node& node, const std::string& field, const glm::mat4& worldFromObject);
     void addCamera(const tinygltf::Node& node, const glm::dmat4& worldFromNode);
     Expected<std::optional<std::size_t>> meshOf(std::size_t mesh, std::size_t primitive);
-    Expected<Attributes> attributesOf(const tinygltf::Primitive& primitive, const std::string& field) const;
+    Expected<Attributes> attributesOf(const tinygltf::Primitive& primitive, const std::string& field);
+    Expected<std::vector<std::uint32_t>> indicesOf(const tinygltf::Primitive& primitive, const std::string& field,
+                                                   std::size_t vertices) const;
     Expected<std::size_t> materialOf(int index, const std::string& user);
     Expected<MaterialTexture> textureOf(int index, int uvSet, const tinygltf::ExtensionMap& extensions,
                                         ColorSpace meaning, const std::string& user);
@@ -255,7 +314,7 @@ private:
     std::map<std::pair<int, ColorSpace>, std::shared_ptr<const Texture>> textures;
     std::vector<std::size_t> materialOfMesh;  // of each of the scene's
     std::vector<Bounds> boundsOfMesh;         // of each of the scene's, in object space
-    std::size_t vertices = 0, indices = 0, drawnIndices = 0, texels = 0;
+    std::size_t verticesRead = 0, verticesKept = 0, indices = 0, drawnIndices = 0, texels = 0;
     bool leavesLinesOut = false, leavesMorphsOut = false;
 };
 
@@ -420,64 +479,49 @@ Expected<std::optional<std::size_t>> Reader::meshOf(std::size_t meshIndex, std::
 
     const Expected<std::size_t> material = materialOf(primitive.material, field + ".material");
     if (!material) return tl::unexpected(material.error());
-    Expected<Attributes> read = attributesOf(primitive, field);
-    if (!read) return tl::unexpected(read.error());
-    Attributes& all = *read;
-    const std::size_t count = all.positions.size();
-    std::vector<std::uint32_t> given;
-    if (primitive.indices >= 0) {
-        const Expected<std::size_t> indexCount = accessors.count(primitive.indices, field + ".indices");
-        if (!indexCount) return tl::unexpected(indexCount.error());
-        if (*indexCount > kMaxSceneIndices) return fail(field + ".indices: are too many; simplify the scene");
-        Expected<std::vector<std::uint32_t>> list = accessors.indices(primitive.indices, count, field + ".indices");
-        if (!list) return tl::unexpected(list.error());
-        given = std::move(*list);
+    Expected<Attributes> all = attributesOf(primitive, field);
+    if (!all) return tl::unexpected(all.error());
+    Expected<std::vector<std::uint32_t>> given = indicesOf(primitive, field, all->positions.size());
+    if (!given) return tl::unexpected(given.error());
+    std::vector<std::uint32_t> list = triangleList(*given, mode);
+    if (list.empty()) return meshes[key] = std::nullopt;
+    if (all->normals.empty()) {
+        makeFlat(*all, list);
     } else {
-        given.resize(count);
-        for (std::size_t i = 0; i < count; ++i) given[i] = static_cast<std::uint32_t>(i);
+        keepUsed(*all, list);
     }
-    Mesh mesh;
-    mesh.name = oneLine(its.name.empty() ? field : its.name);
-    mesh.indices = triangleList(given, mode);
-    if (mesh.indices.empty()) return meshes[key] = std::nullopt;
-    vertices += all.normals.empty() ? mesh.indices.size() : count;
-    indices += mesh.indices.size();
-    if (vertices > kMaxSceneVertices || indices > kMaxSceneIndices) {
-        return fail(field + ": the scene has more than " + std::to_string(kMaxSceneVertices) + " vertices or " +
-                    std::to_string(kMaxSceneIndices) + " indices; simplify it");
-    }
-    if (all.normals.empty()) makeFlat(all, mesh.indices);
-    repairNormals(all.normals, all, mesh.indices);
-    const std::size_t made = all.positions.size();
-    for (std::vector<glm::vec2>& uvs : all.uvs) uvs.resize(made, glm::vec2(0.0f));
-    all.colors.resize(made, glm::vec4(1.0f));
-    mesh.positions = std::move(all.positions);
-    mesh.normals = std::move(all.normals);
-    mesh.uvs = std::move(all.uvs[0]);
-    mesh.colors = std::move(all.colors);
-    mesh.streams.push_back({.semantic = "TEXCOORD", .index = 1, .components = 2, .floats = {}, .integers = {}});
-    for (const glm::vec2& uv : all.uvs[1]) mesh.streams[0].floats.insert(mesh.streams[0].floats.end(), {uv.x, uv.y});
+    repairNormals(*all, list);
+    verticesKept += all->positions.size();
+    indices += list.size();
+    if (verticesKept > kMaxSceneVertices || indices > kMaxSceneIndices) return failTooLarge(field);
 
-    const SceneMaterial& surface = scene.materials[*material];
-    if (surface.hasNormalMap() && !all.tangents.empty()) {
-        mesh.tangents = std::move(all.tangents);
-    } else if (surface.hasNormalMap()) {
-        const bool second = surface.normalTexture.uvSet == 1;
-        if (second) exchangeUvs(mesh);
-        Expected<Mesh> complete = withTangents(std::move(mesh));
-        if (!complete) return fail(field + ": " + complete.error().message);
-        mesh = std::move(*complete);
-        if (second) exchangeUvs(mesh);
-    }
-    if (const Expected<void> valid = validate(mesh); !valid) return fail(field + ": " + valid.error().message);
+    Expected<Mesh> mesh = complete(std::move(*all), std::move(list), scene.materials[*material]);
+    if (!mesh) return fail(field + ": " + mesh.error().message);
+    mesh->name = oneLine(its.name.empty() ? field : its.name);
+    if (const Expected<void> valid = validate(*mesh); !valid) return fail(field + ": " + valid.error().message);
     materialOfMesh.push_back(*material);
-    boundsOfMesh.push_back(boundsOf(mesh));
+    boundsOfMesh.push_back(boundsOf(*mesh));
     meshes[key] = scene.meshes.size();
-    scene.meshes.push_back(std::move(mesh));
+    scene.meshes.push_back(std::move(*mesh));
     return meshes[key];
 }
 
-Expected<Attributes> Reader::attributesOf(const tinygltf::Primitive& primitive, const std::string& field) const
+Expected<std::vector<std::uint32_t>> Reader::indicesOf(const tinygltf::Primitive& primitive, const std::string& field,
+                                                       std::size_t vertices) const
+{
+    const std::string user = field + ".indices";
+    if (primitive.indices >= 0) {
+        const Expected<std::size_t> count = accessors.count(primitive.indices, user);
+        if (!count) return tl::unexpected(count.error());
+        if (*count > kMaxSceneIndices) return failTooLarge(user);
+        return accessors.indices(primitive.indices, vertices, user);
+    }
+    std::vector<std::uint32_t> all(vertices);
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+}
+
+Expected<Attributes> Reader::attributesOf(const tinygltf::Primitive& primitive, const std::string& field)
 {
     std::size_t count = 0;
     // The attribute's numbers; none where the primitive does not have it.
@@ -487,7 +531,8 @@ Expected<Attributes> Reader::attributesOf(const tinygltf::Primitive& primitive, 
         const std::string user = field + ".attributes." + name;
         const Expected<std::size_t> its = accessors.count(found->second, user);
         if (!its) return tl::unexpected(its.error());
-        if (*its > kMaxSceneVertices) return fail(user + ": are too many; simplify the scene");
+        if (count == 0) verticesRead += *its;
+        if (*its > kMaxSceneVertices || verticesRead > kMaxReadVertices) return failTooLarge(user);
         if (count != 0 && *its != count) {
             return fail(user + ": has " + std::to_string(*its) + " elements for " + std::to_string(count) +
                         " positions; export the file again");
@@ -535,41 +580,49 @@ Expected<Attributes> Reader::attributesOf(const tinygltf::Primitive& primitive, 
 
 // --- materials ---
 
+// Without textures.
+SceneMaterial factorsOf(const tinygltf::Material& its)
+{
+    const tinygltf::PbrMetallicRoughness& pbr = its.pbrMetallicRoughness;
+    SceneMaterial made;
+    for (int i = 0; i < 4 && pbr.baseColorFactor.size() == 4; ++i) {
+        made.baseColor[i] = floatOf(pbr.baseColorFactor[static_cast<std::size_t>(i)], 0.0, 1.0);
+    }
+    double strength = 1.0;
+    if (const auto found = its.extensions.find("KHR_materials_emissive_strength"); found != its.extensions.end()) {
+        strength = numberIn(found->second, "emissiveStrength", 1.0);
+    }
+    for (int i = 0; i < 3 && its.emissiveFactor.size() == 3; ++i) {
+        made.emissive[i] = floatOf(its.emissiveFactor[static_cast<std::size_t>(i)] * strength, 0.0, 1e6);
+    }
+    made.metallic = floatOf(pbr.metallicFactor, 0.0, 1.0);
+    made.roughness = floatOf(pbr.roughnessFactor, 0.0, 1.0);
+    made.normalScale = floatOf(its.normalTexture.scale, -1e6, 1e6);
+    made.occlusionStrength = floatOf(its.occlusionTexture.strength, 0.0, 1.0);
+    made.alphaCutoff = floatOf(its.alphaCutoff, 0.0, 1e6);
+    made.twoSided = its.doubleSided;
+    made.unlit = its.extensions.contains("KHR_materials_unlit");
+    if (its.alphaMode == "MASK") made.alpha = SceneMaterial::Alpha::mask;
+    if (its.alphaMode == "BLEND") made.alpha = SceneMaterial::Alpha::blend;
+    return made;
+}
+
+// Of no material (-1) the default one.
 Expected<std::size_t> Reader::materialOf(int index, const std::string& user)
 {
     if (const auto known = materials.find(index); known != materials.end()) return known->second;
+    if (index >= 0 && static_cast<std::size_t>(index) >= file.materials.size()) {
+        return fail(user + ": there is no material " + std::to_string(index) + " among " +
+                    std::to_string(file.materials.size()) + "; export the file again");
+    }
     SceneMaterial made;
     if (index >= 0) {
-        if (static_cast<std::size_t>(index) >= file.materials.size()) {
-            return fail(user + ": there is no material " + std::to_string(index) + " among " +
-                        std::to_string(file.materials.size()) + "; export the file again");
-        }
         const tinygltf::Material& its = file.materials[static_cast<std::size_t>(index)];
         const tinygltf::PbrMetallicRoughness& pbr = its.pbrMetallicRoughness;
-        const std::string field = element("materials", static_cast<std::size_t>(index));
-        for (int i = 0; i < 4 && pbr.baseColorFactor.size() == 4; ++i) {
-            made.baseColor[i] = floatOf(pbr.baseColorFactor[static_cast<std::size_t>(i)], 0.0, 1.0);
-        }
-        double strength = 1.0;
-        if (const auto found = its.extensions.find("KHR_materials_emissive_strength"); found != its.extensions.end()) {
-            strength = numberIn(found->second, "emissiveStrength", 1.0);
-        }
-        for (int i = 0; i < 3 && its.emissiveFactor.size() == 3; ++i) {
-            made.emissive[i] = floatOf(its.emissiveFactor[static_cast<std::size_t>(i)] * strength, 0.0, 1e6);
-        }
-        made.metallic = floatOf(pbr.metallicFactor, 0.0, 1.0);
-        made.roughness = floatOf(pbr.roughnessFactor, 0.0, 1.0);
-        made.normalScale = floatOf(its.normalTexture.scale, -1e6, 1e6);
-        made.occlusionStrength = floatOf(its.occlusionTexture.strength, 0.0, 1.0);
-        made.alphaCutoff = floatOf(its.alphaCutoff, 0.0, 1e6);
-        made.twoSided = its.doubleSided;
-        made.unlit = its.extensions.contains("KHR_materials_unlit");
-        if (its.alphaMode == "MASK") made.alpha = SceneMaterial::Alpha::mask;
-        if (its.alphaMode == "BLEND") made.alpha = SceneMaterial::Alpha::blend;
-
+        made = factorsOf(its);
         const auto take = [&](MaterialTexture& texture, const auto& info, ColorSpace meaning, const char* name) {
-            Expected<MaterialTexture> read =
-                textureOf(info.index, info.texCoord, info.extensions, meaning, field + "." + name);
+            const std::string field = element("materials", static_cast<std::size_t>(index)) + "." + name;
+            Expected<MaterialTexture> read = textureOf(info.index, info.texCoord, info.extensions, meaning, field);
             if (read) texture = *read;
             return read.map([](const MaterialTexture&) {});
         };

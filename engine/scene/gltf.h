@@ -10,6 +10,7 @@ namespace relief::inline RELIEF_WIDTH {
 
 // Limits of a file, beside kMaxFileBytes: what a small file could otherwise ask for by naming the same data again.
 inline constexpr std::size_t kMaxSceneVertices = std::size_t{1} << 24;  // of all meshes
+inline constexpr std::size_t kMaxReadVertices = std::size_t{1} << 26;   // of all primitives, which may share them
 inline constexpr std::size_t kMaxSceneIndices = std::size_t{1} << 26;   // of all meshes
 inline constexpr std::size_t kMaxSceneInstances = std::size_t{1} << 17;
 inline constexpr std::size_t kMaxDrawnIndices = std::size_t{1} << 30;  // of all instances
