@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -13,9 +15,9 @@
 #include <glm/geometric.hpp>
 
 #include "gltf_file.h"
-#include "pipeline/save.h"
 #include "png16.h"
 #include "temporary_folder.h"
+#include "texture/image.h"
 
 using namespace relief;
 using nlohmann::json;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/camera.h"
+#include "pipeline/frame.h"
 #include "scene/scene_file.h"
 #include "shading/lights.h"
 
