@@ -114,7 +114,7 @@ TEST_CASE("lit scene: a node that mirrors keeps its fronts, and mirrors the pict
     CHECK(at(picture, 22, 22) == kBlue);
 }
 
-TEST_CASE("lit scene: backs are culled, unless the material has two sides; then they are lit by their own normal")
+TEST_CASE("lit scene: backs are culled, unless the material has two sides, and are lit by their own normal")
 {
     GltfFile file = GltfFile::square();
     file.setMaterial({{"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
