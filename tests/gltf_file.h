@@ -60,7 +60,7 @@ struct GltfFile
     // The first primitive's material, which the JSON does not have before.
     void setMaterial(const nlohmann::json& material)
     {
-        json["materials"] = {material};
+        json["materials"] = nlohmann::json::array({material});  // clang takes {material} for a copy
         primitive()["material"] = 0;
     }
 
