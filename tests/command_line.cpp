@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/stage.h"
+#include "gltf_file.h"
 #include "temporary_folder.h"
 #include "texture/cube_map.h"
 #include "texture/image.h"
@@ -156,6 +157,37 @@ TEST_CASE("command line: render writes the picture of the size asked for")
     CHECK(std::get<relief::Image8>(*image).height == 45);
     CHECK(run(folder.path, "render rotated_tangent --size 16x16").code == 0);
     CHECK(fs::exists(folder.path / "06_rotated_tangent.png"));
+}
+
+TEST_CASE("command line: render --scene draws a glTF file, and refuses bad ones and options of stages")
+{
+    const TemporaryFolder folder;
+    GltfFile file = GltfFile::square();
+    folder.write("a.glb", file.glb());
+    folder.write("a.bin", file.bytes);
+    folder.write("b.gltf", file.gltf("a.bin"));
+    file.primitive()["mode"] = 1;
+    folder.write("lines.glb", file.glb());
+    folder.write("cut.glb", GltfFile::square().glb().substr(0, 500));
+    const Outcome drawn = run(folder.path, "render --scene a.glb --size 64x36 --samples 4");
+    CHECK(drawn.code == 0);
+    CHECK(drawn.out == "a.png\n");
+    CHECK(run(folder.path, "render --scene b.gltf --size 64x36 --samples 4 --threads 3 -o b.png").code == 0);
+    const auto a = relief::readImage((folder / "a.png").string()), b = relief::readImage((folder / "b.png").string());
+    REQUIRE((a && b));
+    const auto& pixels = std::get<relief::Image8>(*a).pixels;
+    CHECK(pixels == std::get<relief::Image8>(*b).pixels);
+    CHECK(pixels[0] != pixels[(18 * 64 + 32) * 4]);
+    CHECK(run(folder.path, "render --scene a.glb --size 64x36 --camera 0,0,9 -o c.png").code == 0);
+    CHECK(contents(folder / "c.png") != contents(folder / "a.png"));
+    checkRefused(folder.path, "render --scene lines.glb", {"lines.glb: ", "no triangles"});
+    checkRefused(folder.path, "render --scene cut.glb", {"cut.glb: is truncated"});
+    checkRefused(folder.path, "render --scene none.glb", {"none.glb"});
+    checkRefused(folder.path, "render --scene a.glb --set bumpScale=1", {"--set: render --scene does not take it"});
+    checkRefused(folder.path, "render --scene a.glb --watch", {"--watch"});
+    checkRefused(folder.path, "render 1.06 --scene a.glb", {"render: name a stage, or a scene"});
+    checkRefused(folder.path, "render --scene a.glb --size 0x0", {"--size"});
+    checkRefused(folder.path, "render --scene a.glb --camera 1", {"--camera"});
 }
 
 TEST_CASE("command line: render --show draws a view, lists those of the stage, and refuses others")

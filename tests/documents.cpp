@@ -180,6 +180,7 @@ TEST_CASE("documents: the engine's folders include downwards only")
         {"hlsl", {"lanes"}},
         {"texture", {"lanes", "hlsl"}},
         {"mesh", {"lanes"}},
+        {"scene", {"lanes", "hlsl", "texture", "mesh"}},
         {"shading", {"lanes", "hlsl", "texture", "mesh"}},
         {"pipeline", {"lanes", "hlsl", "texture", "mesh"}},
         {"check", {"lanes", "hlsl", "texture", "mesh", "pipeline"}},

@@ -19,7 +19,9 @@
 #include <doctest/doctest.h>
 
 #include "file.h"
+#include "png16.h"
 #include "temporary_folder.h"
+#include "texture/import.h"
 
 using namespace relief;
 
@@ -43,52 +45,6 @@ std::vector<std::uint8_t> noisyPixels(int count)
         pixels.push_back(static_cast<std::uint8_t>(state >> 24));
     }
     return pixels;
-}
-
-std::string bigEndian(std::uint32_t value)
-{
-    std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-    return bytes;
-}
-
-std::uint32_t crc(const std::string& bytes)
-{
-    std::uint32_t c = 0xffffffffu;
-    for (const char byte : bytes) {
-        c ^= static_cast<std::uint8_t>(byte);
-        for (int bit = 0; bit < 8; ++bit) c = (c & 1) ? c >> 1 ^ 0xedb88320u : c >> 1;
-    }
-    return ~c;
-}
-
-std::string chunk(const std::string& type, const std::string& data)
-{
-    return bigEndian(static_cast<std::uint32_t>(data.size())) + type + data + bigEndian(crc(type + data));
-}
-
-// A grey PNG of one row of 16-bit samples, in a stored (not compressed) zlib stream.
-std::string png16(std::uint32_t width, std::uint32_t height, const std::vector<std::uint16_t>& samples)
-{
-    std::string row(1, '\0');
-    for (const std::uint16_t sample : samples) {
-        row += static_cast<char>(sample >> 8);
-        row += static_cast<char>(sample & 0xff);
-    }
-    std::uint32_t a = 1;
-    std::uint32_t b = 0;
-    for (const char byte : row) {
-        a = (a + static_cast<std::uint8_t>(byte)) % 65521;
-        b = (b + a) % 65521;
-    }
-    const auto length = static_cast<std::uint16_t>(row.size());
-    std::string zlib = {'\x78', '\x01', '\x01'};
-    for (const int value : {length & 0xff, length >> 8, ~length & 0xff, (~length >> 8) & 0xff}) {
-        zlib += static_cast<char>(value);
-    }
-    zlib += row + bigEndian(b << 16 | a);
-    const std::string header = bigEndian(width) + bigEndian(height) + std::string({16, 0, 0, 0, 0});
-    return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("IDAT", zlib) + chunk("IEND", "");
 }
 
 // 2 x 2, 24 bit, bottom row first: blue, green / red, white.
@@ -178,6 +134,28 @@ TEST_CASE("image: 16-bit PNG keeps its 16 bits")
     REQUIRE(std::holds_alternative<Image16>(*image));
     const std::vector<std::uint16_t> expected = {0, 0, 0, 65535, 258, 258, 258, 65535, 65535, 65535, 65535, 65535};
     CHECK(std::get<Image16>(*image).pixels == expected);
+}
+
+TEST_CASE("image: the bytes of a file are read as the file is, and errors begin with the name that they are given")
+{
+    const std::string file = png16(3, 1, {0, 258, 65535});
+    const Expected<ImageFile> image = decodeImage({file.begin(), file.end()}, "a.glb: images[2]");
+    REQUIRE(image.has_value());
+    CHECK(std::get<Image16>(*image).pixels[4] == 258);
+    const Expected<ImageFile> cut = decodeImage({file.begin(), file.end() - 30}, "a.glb: images[2]");
+    REQUIRE(!cut.has_value());
+    CHECK(cut.error().message.starts_with("a.glb: images[2]: is "));
+}
+
+TEST_CASE("image: a 16-bit PNG becomes a texture of 16 bits, code by code")
+{
+    const TemporaryFolder folder;
+    const Expected<std::shared_ptr<const Texture>> texture = importTexture(
+        folder.write("a.png", png16(4, 1, {0, 1, 32769, 65535})).string(), {.colorSpace = ColorSpace::linear});
+    REQUIRE(texture.has_value());
+    CHECK((*texture)->format() == TexelFormat::rgba16);
+    int x = 0;
+    for (const float code : {0.0f, 1.0f, 32769.0f, 65535.0f}) CHECK((*texture)->texel(x++, 0).x == code / 65535.0f);
 }
 
 TEST_CASE("image: TGA and BMP, whose first row is the lowest, come with row 0 on top")

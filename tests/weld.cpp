@@ -62,6 +62,20 @@ TEST_CASE("weld: a vertex whose corners agree stays one, others are split in the
     CHECK(mesh.colors[4] == quad.colors[0]);
 }
 
+TEST_CASE("weld: a vertex that is split takes its other streams along, and leaves those of instances alone")
+{
+    Mesh mesh = makeQuad();
+    mesh.streams = {{"TEXCOORD", 1, 2, {0, 1, 2, 3, 4, 5, 6, 7}, {}, false},
+                    {"TEXCOORD", 2, 1, {}, {10, 11, 12, 13}, false},
+                    {"TEXCOORD", 3, 4, {1, 2, 3, 4}, {}, true}};
+    const glm::vec2 a(1, 2), b(3, 4);
+    setPerCorner(mesh, &Mesh::uvs, {a, b, a, b, b, a});  // vertex 0 is split
+    CHECK(mesh.streams[0].floats == std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 0, 1});
+    CHECK(mesh.streams[1].integers == std::vector<std::int32_t>{10, 11, 12, 13, 10});
+    CHECK(mesh.streams[2].floats.size() == 4);
+    CHECK(validate(mesh).has_value());
+}
+
 TEST_CASE("weld: vertices without a corner keep what they have, and empty streams stay empty")
 {
     Mesh mesh = makeQuad();

@@ -77,6 +77,10 @@ void setPerCorner(Mesh& mesh, std::vector<Vector> Mesh::*stream, const std::vect
     const auto append = [](auto& vectors, std::uint32_t vertex) {
         if (vertex < vectors.size()) vectors.push_back(vectors[vertex]);  // streams that the mesh lacks stay empty
     };
+    const auto appendAll = [](auto& numbers, std::size_t components, std::uint32_t vertex) {
+        if (numbers.empty()) return;
+        for (std::size_t i = 0; i < components; ++i) numbers.push_back(numbers[vertex * components + i]);
+    };
     for (std::size_t corner = 0; corner < values.size(); ++corner) {
         std::uint32_t& index = mesh.indices[corner];
         if (first[corner] != corner) {
@@ -89,6 +93,11 @@ void setPerCorner(Mesh& mesh, std::vector<Vector> Mesh::*stream, const std::vect
             append(mesh.uvs, index);
             append(mesh.tangents, index);
             append(mesh.colors, index);
+            for (VertexStream& other : mesh.streams) {
+                if (other.perInstance) continue;
+                appendAll(other.floats, static_cast<std::size_t>(other.components), index);
+                appendAll(other.integers, static_cast<std::size_t>(other.components), index);
+            }
             index = static_cast<std::uint32_t>(mesh.positions.size() - 1);
         } else {
             isUsed[index] = true;

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #define STBI_NO_STDIO
 #include <stb/stb_image.h>
@@ -201,28 +202,32 @@ Expected<void> checkWrite(const std::string& path, int width, int height, std::s
 
 Expected<ImageFile> readImage(const std::string& path)
 {
-    const DefaultFloatingPoint environment;
     Expected<Bytes> file = readFile(path);
     if (!file) return tl::unexpected(file.error());
-    Bytes& bytes = *file;
-    if (isPfm(bytes)) return decodePfm(path, bytes);
-    if (const std::string what = unsupportedFeature(bytes); !what.empty()) return failUnsupported(path, what);
+    return decodeImage(std::move(*file), path);
+}
+
+Expected<ImageFile> decodeImage(std::vector<std::uint8_t> bytes, const std::string& name)
+{
+    const DefaultFloatingPoint environment;
+    if (isPfm(bytes)) return decodePfm(name, bytes);
+    if (const std::string what = unsupportedFeature(bytes); !what.empty()) return failUnsupported(name, what);
     fillPalette(bytes);
-    if (!jpegTablesFit(bytes)) return fail(path + ": is damaged (bad Huffman table); copy or export it again");
+    if (!jpegTablesFit(bytes)) return fail(name + ": is damaged (bad Huffman table); copy or export it again");
 
     const int length = static_cast<int>(bytes.size());  // at most kMaxFileBytes
     int width = 0;
     int height = 0;
     int channelsInFile = 0;
-    if (!stbi_info_from_memory(bytes.data(), length, &width, &height, &channelsInFile)) return failHeader(path, bytes);
+    if (!stbi_info_from_memory(bytes.data(), length, &width, &height, &channelsInFile)) return failHeader(name, bytes);
     const Size size{width, std::abs(std::int64_t{height})};  // a BMP that starts with its top row has a negative height
-    if (size.width < 1 || size.height < 1) return fail(path + ": is " + toString(size) + "; export it again");
+    if (size.width < 1 || size.height < 1) return fail(name + ": is " + toString(size) + "; export it again");
     if (size.width > kMaxImageSide || size.height > kMaxImageSide) {
-        return fail(path + ": " + toString(size) + " is larger than " + toString({kMaxImageSide, kMaxImageSide}) +
+        return fail(name + ": " + toString(size) + " is larger than " + toString({kMaxImageSide, kMaxImageSide}) +
                     "; scale it down");
     }
     if (const std::uint64_t fewest = fewestTgaBytes(bytes); bytes.size() < fewest) {
-        return fail(path + ": is truncated (" + std::to_string(bytes.size()) + " bytes, but " + toString(size) +
+        return fail(name + ": is truncated (" + std::to_string(bytes.size()) + " bytes, but " + toString(size) +
                     " takes at least " + std::to_string(fewest) + "); copy or export it again");
     }
 
@@ -230,13 +235,13 @@ Expected<ImageFile> readImage(const std::string& path)
     const bool is16Bit = !isHdr && stbi_is_16_bit_from_memory(bytes.data(), length) != 0;
     const std::int64_t bytesPerPixel = isHdr ? 16 : is16Bit ? 8 : 4;
     if (static_cast<std::uint64_t>(size.width * size.height * bytesPerPixel) > kMaxDecodedBytes) {
-        return fail(path + ": " + toString(size) + " takes more than 1 GiB of memory; scale it down");
+        return fail(name + ": " + toString(size) + " takes more than 1 GiB of memory; scale it down");
     }
 
     // An HDR file cannot hold NaN or infinity: its largest number is 255 * 2^119, and that fits a float.
-    if (isHdr) return decode<float>(path, bytes, size, stbi_loadf_from_callbacks);
-    if (is16Bit) return decode<std::uint16_t>(path, bytes, size, stbi_load_16_from_callbacks);
-    Expected<ImageFile> image = decode<std::uint8_t>(path, bytes, size, stbi_load_from_callbacks);
+    if (isHdr) return decode<float>(name, bytes, size, stbi_loadf_from_callbacks);
+    if (is16Bit) return decode<std::uint16_t>(name, bytes, size, stbi_load_16_from_callbacks);
+    Expected<ImageFile> image = decode<std::uint8_t>(name, bytes, size, stbi_load_from_callbacks);
     if (image && tgaRunsLeftwards(bytes)) image = mirrored(std::get<Image8>(std::move(*image)));
     return image;
 }

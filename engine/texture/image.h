@@ -39,6 +39,9 @@ inline constexpr std::uint64_t kMaxWrittenPngBytes = std::uint64_t{1} << 29;  //
 // allocated for the pixels.
 Expected<ImageFile> readImage(const std::string& path);
 
+// The same for the bytes of a file that lie in another one. Errors begin with `name` in place of the path.
+Expected<ImageFile> decodeImage(std::vector<std::uint8_t> bytes, const std::string& name);
+
 // Writes 8-bit RGBA, row 0 on top, as PNG, through writeFileAtomically (file.h). The same pixels give the same bytes.
 // An error when a side is not in 1..kMaxImageSide, the span is not width * height * 4 long or longer than
 // kMaxWrittenPngBytes, or the file cannot be written.

@@ -78,14 +78,16 @@ void addShowOption(CLI::App& command, std::string& show)
         ->type_name("VIEW");
 }
 
-void addInputOptions(CLI::App& command, RenderOptions& options)
+CLI::Option* addInputOptions(CLI::App& command, RenderOptions& options)
 {
-    command
-        .add_option("stage", options.stage,
-                    "A stage, by number (1.07) or name (07_central_difference), or a file with one of your own "
-                    "(my_shader.cpp)")
-        ->required();
+    CLI::Option* const stage =
+        command
+            .add_option("stage", options.stage,
+                        "A stage, by number (1.07) or name (07_central_difference), or a file with one of your own "
+                        "(my_shader.cpp)")
+            ->required();
     addPictureOptions(command, options);
+    return stage;
 }
 
 // All but --stage are of no use without it; --peer takes size and threads too.
@@ -159,6 +161,21 @@ std::string otherOption(const CLI::App& command, const std::vector<std::string>&
         }
     }
     return "";
+}
+
+Expected<void> renderWith(const CLI::App& command, const RenderOptions& options, const std::string& output, bool watch,
+                          const Program& program)
+{
+    if (options.scene.empty() == options.stage.empty()) {
+        return fail("render: name a stage, or a scene with --scene FILE.glb; `relief list` shows the stages");
+    }
+    auto* const function = watch                   ? program.renderAtEverySave
+                           : options.scene.empty() ? program.render
+                                                   : program.renderScene;
+    const std::string other =
+        otherOption(command, {"--scene", "--size", "--threads", "--camera", "--output", "--tile", "--samples"});
+    if (!options.scene.empty() && !other.empty()) return fail(other + ": render --scene does not take it");
+    return function != nullptr ? function(options, output) : elsewhere("render");
 }
 
 Expected<void> benchWith(const CLI::App& command, const BenchOptions& options, PeerOptions peerOptions,
@@ -296,15 +313,19 @@ int runProgram(int argc, char** argv, const Program& program)
     command->add_flag("--json", json, "As JSON, with the properties of each");
     command->callback([&] { run("list", program.list, json); });
 
-    command = app.add_subcommand("render", "Renders a stage to a PNG file");
-    addInputOptions(*command, options);
+    command = app.add_subcommand("render", "Renders a stage, or a scene of a glTF file, to a PNG file");
+    addInputOptions(*command, options)->required(false);
+    command
+        ->add_option("--scene", options.scene,
+                     "A .gltf or .glb file in place of a stage; takes --size, --threads, --camera, --tile, --samples")
+        ->type_name("FILE");
     command->add_option("-o,--output", output, "The file; default: the stage's name")->type_name("FILE.png");
     bool watch = false;
     addShowOption(*command, options.show);
     addTargetOptions(*command, options);
     command->add_flag("--watch", watch, "Writes the picture again whenever the stage's file is saved");
     addCompilerOption(*command, options.compiler);
-    command->callback([&] { run("render", watch ? program.renderAtEverySave : program.render, options, output); });
+    command->callback([&, command] { result = renderWith(*command, options, output, watch, program); });
 
     command = app.add_subcommand("new", "Writes a stage of your own, complete and with comments, into one file");
     std::string newFile, from;
@@ -318,7 +339,8 @@ int runProgram(int argc, char** argv, const Program& program)
     command->add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
     command->callback([&] { run("gallery", program.gallery, folder, options.threads); });
 
-    command = app.add_subcommand("view", "Shows a stage in a window, and again whenever its file is saved");
+    command = app.add_subcommand(
+        "view", "Shows a stage in a window, and again whenever its file is saved, or a scene of a .gltf or .glb file");
     ViewOptions viewOptions;
     addInputOptions(*command, viewOptions.render);
     addShowOption(*command, viewOptions.render.show);

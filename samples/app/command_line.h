@@ -12,6 +12,7 @@ struct Program
 {
     Expected<void> (*list)(bool json) = nullptr;
     Expected<void> (*render)(const RenderOptions& options, const std::string& output) = nullptr;
+    Expected<void> (*renderScene)(const RenderOptions& options, const std::string& output) = nullptr;
     Expected<void> (*renderAtEverySave)(const RenderOptions& options, const std::string& output) = nullptr;
     Expected<void> (*newStage)(const std::string& path, const std::string& from) = nullptr;
     Expected<void> (*gallery)(const std::string& folder, int threads) = nullptr;

@@ -8,6 +8,7 @@ namespace relief::samples {
 
 Expected<void> list(bool json);
 Expected<void> render(const RenderOptions& options, const std::string& output);
+Expected<void> renderScene(const RenderOptions& options, const std::string& output);
 Expected<void> renderAtEverySave(const RenderOptions& options, const std::string& output);
 Expected<void> newStage(const std::string& path, const std::string& from);
 Expected<void> benchLive(const LiveBenchOptions& options);

@@ -28,6 +28,7 @@ int main(int argc, char** argv)
     return runProgram(argc, argv,
                       {.list = list,
                        .render = render,
+                       .renderScene = renderScene,
                        .renderAtEverySave = renderAtEverySave,
                        .newStage = newStage,
                        .gallery = gallery,

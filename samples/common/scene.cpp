@@ -5,10 +5,12 @@
 
 #include "common/assets.h"
 #include "common/import_options.h"
+#include "common/lit_scene.h"
 #include "common/tangent_space_visualizer.h"
 #include "mesh/spherical_uv.h"
 #include "mesh/tangents.h"
 #include "pipeline/workers.h"
+#include "scene/gltf.h"
 
 namespace relief::samples {
 
@@ -65,7 +67,13 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     if (!users.mesh.empty() && inputs.mesh.empty()) {
         return fail("--mesh " + users.mesh + ": this stage draws a fixed shape; leave the option out");
     }
-    if (isPrimitive(users.mesh)) {
+    if (inputs.mesh == kSceneOfFile) {
+        if (users.mesh.empty()) return fail("this stage shows a scene of a file; name it with --mesh FILE.glb");
+        Expected<SceneFile> scene = readGltf(users.mesh);
+        if (!scene) return tl::unexpected(scene.error());
+        loaded->usersScene = std::make_shared<const LitScene>(std::move(*scene));
+        loaded->objects = arranged("quad", 0.0f);  // nobody draws it
+    } else if (isPrimitive(users.mesh)) {
         loaded->objects = arranged(users.mesh, inputs.cubesTurnedBy);
     } else if (!users.mesh.empty()) {
         Expected<Mesh> mesh = readObj(users.mesh);
@@ -99,6 +107,16 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
         if (!load.result) return tl::unexpected(load.result.error());
     }
     return loaded;
+}
+
+void Scene::drawFile(const Surroundings& light) const
+{
+    const SceneFile& file = inputs.usersScene->file();
+    for (const std::string& line : file.notes) note(line);
+    for (const auto& texture : file.textures) log.textures.insert(texture.get());
+    if (const auto drawn = inputs.usersScene->draw(frame, {clipFromWorld, cameraPosition}, light); !drawn) {
+        log.problem = drawn.error().message;
+    }
 }
 
 void SceneLog::clear()

@@ -20,6 +20,12 @@
 
 namespace relief::samples {
 
+class LitScene;
+struct Surroundings;
+
+// What a stage names as its mesh that shows a scene of a glTF file, which the user names with --mesh.
+inline constexpr std::string_view kSceneOfFile = "scene";
+
 // A mesh and where it stands.
 struct Object
 {
@@ -32,6 +38,7 @@ struct LoadedInputs
 {
     std::optional<Mesh> usersMesh;
     std::vector<Object> objects;  // the user's mesh alone, or the stage's
+    std::shared_ptr<const LitScene> usersScene;
     PerTexture<std::shared_ptr<const Texture>> textures;
 };
 
@@ -87,6 +94,9 @@ public:
 
     // The first object, laid flat and facing up; a mesh of the user's as it is.
     Object lying() const;
+
+    // The scene of the user's file (kSceneOfFile), in its own materials (lit_scene.h).
+    void drawFile(const Surroundings& light) const;
 
     // Draws an object with programs that need no more than its uniforms.
     template <class VertexProgram, class FragmentProgram>

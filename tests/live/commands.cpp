@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 
+#include "gltf_file.h"
 #include "temporary_folder.h"
 #include "texture/image.h"
 
@@ -124,6 +125,13 @@ TEST_CASE("live: the window opens, shows frames and closes under SDL's dummy dri
     checkRefused(folder, "view 1.09 --set nope=1", "nope");
     checkRefused(folder, "view 1.09 --albedo none.png", "none.png");
     checkRefused(folder, "view 1.09 --scale 9", "--scale");
+
+    folder.write("a.glb", GltfFile::square().glb());
+    folder.write("cut.glb", GltfFile::square().glb().substr(0, 500));
+    const Outcome scene = run(folder, "view a.glb --size 64x36 --frames 3");
+    CHECK_MESSAGE(scene.code == 0, scene.err);
+    checkRefused(folder, "view cut.glb", "cut.glb: is truncated");
+    checkRefused(folder, "view none.glb", "none.glb");
 }
 
 TEST_CASE("live: bad input is one line")

@@ -1,0 +1,42 @@
+// `render --scene`: a glTF file, lit.
+#include <cstdio>
+
+#include "commands.h"
+#include "common/lit_scene.h"
+#include "path.h"
+#include "pipeline/save.h"
+#include "scene/gltf.h"
+
+namespace relief::samples {
+
+Expected<void> renderScene(const RenderOptions& options, const std::string& output)
+{
+    const Expected<Size> size = parseSize(options.size);
+    if (!size) return tl::unexpected(size.error());
+    Expected<SceneFile> file = readGltf(options.scene);
+    if (!file) return tl::unexpected(file.error());
+    for (const std::string& note : file->notes)
+        std::fprintf(stderr, "relief: %s: %s\n", options.scene.c_str(), note.c_str());
+    LitScene scene(std::move(*file));
+    if (!options.camera.empty()) {
+        const Expected<Camera> camera = parseCamera(options.camera);
+        if (!camera) return tl::unexpected(camera.error());
+        scene.lookFrom(*camera);
+    }
+    Expected<Framebuffer> target =
+        Framebuffer::create(size->width, size->height, Format::rgba8Srgb, Store::discard, options.samples);
+    if (!target) return tl::unexpected(target.error());
+    Frame frame(*target, {.threads = options.threads, .tileSize = options.tileSize});
+    if (const auto recorded = scene.record(frame, size->width, size->height, usualSurroundings()); !recorded) {
+        return tl::unexpected(recorded.error());
+    }
+    frame.run();
+    const std::string path = output.empty() ? utf8Of(pathOf(options.scene).stem()) + ".png" : output;
+    std::vector<std::uint8_t> picture = bytesOf(*target);
+    for (std::size_t i = 3; i < picture.size(); i += 4) picture[i] = 255;  // blending leaves less where it was
+    if (const Expected<void> written = writePng(path, size->width, size->height, picture); !written) return written;
+    std::printf("%s\n", path.c_str());
+    return {};
+}
+
+}  // namespace relief::samples

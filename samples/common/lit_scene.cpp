@@ -1,0 +1,291 @@
+#include "common/lit_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "common/render.h"
+#include "shading/normals.h"
+#include "shading/object_transform.h"
+#include "shading/tangent_space.h"
+
+namespace relief::samples {
+
+namespace {
+
+// --- the programs; with and without a normal map ---
+
+template <bool NORMAL_MAP>
+struct VertexData;
+
+template <>
+struct VertexData<false>
+{
+    POSITION position;
+    NORMAL normal;
+    TEXCOORD<0, float2> uv;
+    TEXCOORD<1, float2> uv1;
+    COLOR<0, float4> color;
+};
+
+template <>
+struct VertexData<true>
+{
+    POSITION position;
+    NORMAL normal;
+    TANGENT tangent;
+    TEXCOORD<0, float2> uv;
+    TEXCOORD<1, float2> uv1;
+    COLOR<0, float4> color;
+};
+
+template <bool NORMAL_MAP>
+struct Interpolators;
+
+template <>
+struct Interpolators<false>
+{
+    SV_POSITION position;
+    TEXCOORD<0, float4> uv;  // the first set in xy, the second in zw
+    TEXCOORD<1, float3> normal;
+    TEXCOORD<3, float3> worldPos;
+    COLOR<0, float4> color;
+};
+
+template <>
+struct Interpolators<true>
+{
+    SV_POSITION position;
+    TEXCOORD<0, float4> uv;
+    TEXCOORD<1, float3> normal;
+    TEXCOORD<2, float4> tangent;
+    TEXCOORD<3, float3> worldPos;
+    COLOR<0, float4> color;
+};
+
+template <bool NORMAL_MAP>
+struct SceneVertexProgram
+{
+    ObjectTransform object;
+
+    Interpolators<NORMAL_MAP> operator()(VertexData<NORMAL_MAP> v) const
+    {
+        Interpolators<NORMAL_MAP> i;
+        i.position = UnityObjectToClipPos(object, v.position);
+        i.worldPos = mul(object.worldFromObject, v.position).xyz();
+        i.normal = UnityObjectToWorldNormal(object, v.normal);
+        if constexpr (NORMAL_MAP) i.tangent = float4(UnityObjectToWorldDir(object, v.tangent.xyz()), v.tangent.w);
+        i.uv = float4(v.uv, v.uv1);
+        i.color = v.color;
+        return i;
+    }
+};
+
+float4 sampled(const MaterialTexture& t, const float4& uvs)
+{
+    const float2 uv = t.uvSet == 0 ? uvs.xy() : uvs.zw();
+    return tex2D(t.sampler, {uv.x * t.u.x + uv.y * t.u.y + t.u.z, uv.x * t.v.x + uv.y * t.v.y + t.v.z});
+}
+
+// What the fragment programs share.
+template <bool NORMAL_MAP>
+struct Surface
+{
+    SceneMaterial material;
+    Surroundings light;
+    float3 worldSpaceCameraPos;
+    Float mirrorSign;  // unity_WorldTransformParams.w
+    Float side;        // 1 where fronts are drawn, -1 where backs are
+
+    float4 baseColor(const Interpolators<NORMAL_MAP>& i) const
+    {
+        return sampled(material.baseColorTexture, i.uv) * broadcast(material.baseColor) * i.color;
+    }
+
+    float3 normalAt(const Interpolators<NORMAL_MAP>& i) const
+    {
+        if constexpr (NORMAL_MAP) {
+            const float3 tangent = i.tangent.xyz();
+            const float3 binormal = CreateBinormal(i.normal, tangent, i.tangent.w, mirrorSign);
+            const float3 bump = UnpackScaleNormalRGB(sampled(material.normalTexture, i.uv), material.normalScale);
+            return TangentSpaceToWorld(bump, tangent, binormal, i.normal) * side;
+        } else {
+            return normalize(i.normal) * side;
+        }
+    }
+
+    // The light that the surroundings send to the viewer by this surface, as Unity's BRDF1: their reflection grows
+    // towards grazing angles, and fades with roughness.
+    float3 ambient(const float3& diffuse, const float3& specular, Float oneMinusReflectivity, Float roughness,
+                   const float3& normal, const float3& viewDir) const
+    {
+        const Float smoothness = 1.0f - roughness;
+        const Float grazing = saturate(smoothness + (1.0f - oneMinusReflectivity));
+        const float3 fresnel = lerp(specular, float3(grazing), Pow5(1.0f - abs(dot(normal, viewDir))));
+        const Float squared = roughness * roughness;
+        const float3 mirrored = ShadeSH9(light.sky, reflect(-viewDir, normal));
+        return diffuse * ShadeSH9(light.sky, normal) + mirrored * fresnel * (1.0f / (squared * squared + 1.0f));
+    }
+
+    float3 lit(const Interpolators<NORMAL_MAP>& i, const float3& base) const
+    {
+        if (material.unlit) return base;
+        const float4 metallicRoughness = sampled(material.metallicRoughnessTexture, i.uv);
+        const Float roughness = saturate(metallicRoughness.y * material.roughness);
+        const float3 normal = normalAt(i);
+        const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
+        float3 specular;
+        Float oneMinusReflectivity;
+        const float3 diffuse = DiffuseAndSpecularFromMetallic(base, metallicRoughness.z * material.metallic, specular,
+                                                              oneMinusReflectivity);
+        const float3 direct = UNITY_BRDF_PBS_Exact(diffuse, specular, 1.0f - roughness, normal, viewDir,
+                                                   CreateLight(light.sun, i.worldPos))
+                                  .xyz();
+        const Float occlusion = 1.0f + (sampled(material.occlusionTexture, i.uv).x - 1.0f) * material.occlusionStrength;
+        const float3 emitted = sampled(material.emissiveTexture, i.uv).xyz() * broadcast(material.emissive);
+        return direct + ambient(diffuse, specular, oneMinusReflectivity, roughness, normal, viewDir) * occlusion +
+               emitted;
+    }
+};
+
+template <bool NORMAL_MAP>
+struct OpaqueProgram : Surface<NORMAL_MAP>
+{
+    float4 operator()(Interpolators<NORMAL_MAP> i) const
+    {
+        return float4(this->lit(i, this->baseColor(i).xyz()), 1.0f);
+    }
+};
+
+template <bool NORMAL_MAP>
+struct MaskedProgram : Surface<NORMAL_MAP>
+{
+    float4 operator()(Interpolators<NORMAL_MAP> i, Discard& discard) const
+    {
+        const float4 base = this->baseColor(i);
+        discard(base.w < this->material.alphaCutoff);
+        return float4(this->lit(i, base.xyz()), 1.0f);
+    }
+};
+
+template <bool NORMAL_MAP>
+struct BlendedProgram : Surface<NORMAL_MAP>
+{
+    float4 operator()(Interpolators<NORMAL_MAP> i) const
+    {
+        const float4 base = this->baseColor(i);
+        return float4(this->lit(i, base.xyz()), saturate(base.w));
+    }
+};
+
+template <bool NORMAL_MAP>
+void drawSide(Frame& frame, const Mesh& mesh, const ObjectTransform& object, const Surface<NORMAL_MAP>& surface,
+              Cull cull)
+{
+    const SceneVertexProgram<NORMAL_MAP> vertex = {object};
+    switch (surface.material.alpha) {
+        case SceneMaterial::Alpha::opaque:
+            frame.draw(mesh, vertex, OpaqueProgram<NORMAL_MAP>{surface}, {.cull = cull});
+            break;
+        case SceneMaterial::Alpha::mask:
+            frame.draw(mesh, vertex, MaskedProgram<NORMAL_MAP>{surface}, {.cull = cull});
+            break;
+        case SceneMaterial::Alpha::blend:
+            frame.draw(mesh, vertex, BlendedProgram<NORMAL_MAP>{surface},
+                       {.depthWrite = false, .cull = cull, .blend = Blend::alpha});
+            break;
+    }
+}
+
+template <bool NORMAL_MAP>
+void drawMesh(Frame& frame, const Mesh& mesh, const ObjectTransform& object, Surface<NORMAL_MAP> surface)
+{
+    if (surface.material.twoSided) {
+        surface.side = -1.0f;
+        drawSide(frame, mesh, object, surface, Cull::front);
+    }
+    surface.side = 1.0f;
+    drawSide(frame, mesh, object, surface, Cull::back);
+}
+
+constexpr float kExtent = 2.0f;            // of the longest side
+constexpr float kSineOfHalfView = 0.342f;  // sin 20 degrees, of Camera's usual field of view
+
+}  // namespace
+
+Surroundings usualSurroundings()
+{
+    return {.sun = {.color = float3(0.9f, 0.86f, 0.78f), .dir = normalize(float3(0.75f, 1.0f, 0.55f))},
+            .sky = gradientSurroundings({0.40f, 0.45f, 0.52f}, {0.26f, 0.27f, 0.29f}, {0.13f, 0.12f, 0.10f})};
+}
+
+LitScene::LitScene(SceneFile itsScene) : scene(std::move(itsScene))
+{
+    const Bounds& bounds = scene.bounds;
+    float extent = 0.0f;
+    for (int i = 0; i < 3; ++i) extent = std::max(extent, bounds.high[i] * 0.5f - bounds.low[i] * 0.5f);
+    scale = extent > 0.0f ? std::clamp(kExtent * 0.5f / extent, 1e-30f, 1e30f) : 1.0f;
+    worldFromScene = scaling(glm::vec3(scale)) * translation(-bounds.centre());
+}
+
+LitScene::View LitScene::view(float aspect) const
+{
+    if (!chosen && scene.camera) {
+        const SceneCamera& its = *scene.camera;
+        const glm::vec3 position = glm::vec3(worldFromScene * glm::vec4(its.position, 1.0f));
+        return {perspective(its.fieldOfView, aspect, its.nearPlane * scale, its.farPlane * scale) *
+                    lookAt(position, position + its.forward, its.up),
+                position};
+    }
+    Camera camera;
+    if (chosen) {
+        camera = *chosen;
+    } else {
+        const float distance = scene.bounds.radius() * scale / (kSineOfHalfView * std::min(aspect, 1.0f));
+        camera.position = glm::normalize(glm::vec3(0.55f, 0.45f, 1.0f)) * distance;
+        camera.nearPlane = 0.01f;
+    }
+    return {clipFromView(camera, aspect) * viewFromWorld(camera), camera.position};
+}
+
+void LitScene::draw(Frame& frame, const SceneInstance& instance, const View& from, const Surroundings& light) const
+{
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const SceneMaterial& material = scene.materials[instance.material];
+    const ObjectTransform object(from.clipFromWorld, worldFromScene * instance.worldFromObject);
+    const Float mirror = object.unity_WorldTransformParams.w;
+    frame.setFrontCounterClockwise(instance.mirrored);
+    if (material.hasNormalMap()) {
+        drawMesh<true>(frame, mesh, object, {material, light, broadcast(from.position), mirror, 1.0f});
+    } else {
+        drawMesh<false>(frame, mesh, object, {material, light, broadcast(from.position), mirror, 1.0f});
+    }
+}
+
+Expected<void> LitScene::record(Frame& frame, int width, int height, const Surroundings& light) const
+{
+    frame.reset();
+    frame.clear(kBackground);
+    return draw(frame, view(static_cast<float>(width) / static_cast<float>(height)), light);
+}
+
+Expected<void> LitScene::draw(Frame& frame, const View& from, const Surroundings& light) const
+{
+    std::vector<std::pair<float, const SceneInstance*>> blended;  // by squared distance
+    for (const SceneInstance& instance : scene.instances) {
+        if (scene.materials[instance.material].alpha == SceneMaterial::Alpha::blend) {
+            const glm::vec3 d = glm::vec3(worldFromScene * glm::vec4(instance.bounds.centre(), 1.0f)) - from.position;
+            blended.emplace_back(d.x * d.x + d.y * d.y + d.z * d.z, &instance);
+        } else {
+            draw(frame, instance, from, light);
+        }
+    }
+    std::stable_sort(blended.begin(), blended.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (const auto& [distance, instance] : blended) draw(frame, *instance, from, light);
+    frame.setFrontCounterClockwise(false);
+    if (!frame.problem().empty()) return fail(frame.problem());
+    return {};
+}
+
+}  // namespace relief::samples

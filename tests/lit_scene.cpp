@@ -1,0 +1,266 @@
+// Scenes of files, lit: fronts and backs, mirrored nodes, alpha, uv sets; and one picture that has the same bits
+// everywhere.
+#include "common/lit_scene.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "check/hash.h"
+#include "common/render.h"
+#include "gltf_file.h"
+#include "pipeline/frame.h"
+#include "pipeline/save.h"
+#include "scene/gltf.h"
+#include "temporary_folder.h"
+
+using namespace relief;
+using nlohmann::json;
+using relief::samples::LitScene;
+
+namespace {
+
+constexpr int kSide = 33;
+
+LitScene sceneOf(const GltfFile& file)
+{
+    const TemporaryFolder folder;
+    Expected<SceneFile> scene = readGltf(folder.write("scene.glb", file.glb()).string());
+    REQUIRE_MESSAGE(scene.has_value(), scene.error().message);
+    return LitScene(std::move(*scene));
+}
+
+// The scene from straight ahead: a square of 2 x 2 fills most of the picture. Linear colours, row 0 on top.
+std::vector<glm::vec4> drawn(const LitScene& scene, int threads = 1)
+{
+    Expected<Framebuffer> target = Framebuffer::create(kSide, kSide, Format::rgba32f);
+    REQUIRE(target.has_value());
+    Frame frame(*target, {.threads = threads});
+    REQUIRE(scene.record(frame, kSide, kSide, samples::usualSurroundings()).has_value());
+    frame.run();
+    return {target->color32f().begin(), target->color32f().end()};
+}
+std::vector<glm::vec4> drawnFrom(const GltfFile& file, float z)
+{
+    LitScene scene = sceneOf(file);
+    scene.lookFrom({.position = {0, 0, z}});
+    return drawn(scene);
+}
+
+glm::vec4 at(const std::vector<glm::vec4>& picture, int x, int y)
+{
+    return picture[static_cast<std::size_t>(y * kSide + x)];
+}
+glm::vec4 middle(const std::vector<glm::vec4>& picture)
+{
+    return at(picture, kSide / 2, kSide / 2);
+}
+
+// A picture of two texels above two others.
+std::string png2x2(const std::vector<std::uint8_t>& rgba)
+{
+    const TemporaryFolder folder;
+    REQUIRE(writePng((folder / "a.png").string(), 2, 2, rgba).has_value());
+    std::ifstream in(folder / "a.png", std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+GltfFile squareWithPicture(const std::vector<std::uint8_t>& rgba)
+{
+    GltfFile file = GltfFile::square();
+    file.json["images"] = {{{"bufferView", file.view(png2x2(rgba))}}};
+    file.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9728}}};
+    file.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    return file;
+}
+
+const std::vector<std::uint8_t> kCorners = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
+const glm::vec4 kRed(1, 0, 0, 1), kGreen(0, 1, 0, 1), kBlue(0, 0, 1, 1), kWhite(1);
+
+json unlit()
+{
+    return {{"extensions", {{"KHR_materials_unlit", json::object()}}}};
+}
+
+}  // namespace
+
+TEST_CASE("lit scene: a picture stands upright, and an unlit colour is as it is")
+{
+    GltfFile file = squareWithPicture(kCorners);
+    json material = unlit();
+    material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    file.setMaterial(material);
+    const std::vector<glm::vec4> picture = drawnFrom(file, 3.0f);
+    CHECK(at(picture, 10, 10) == kRed);
+    CHECK(at(picture, 22, 10) == kGreen);
+    CHECK(at(picture, 10, 22) == kBlue);
+    CHECK(at(picture, 22, 22) == kWhite);
+    CHECK(at(picture, 0, 0) == samples::kBackground);
+}
+
+TEST_CASE("lit scene: a node that mirrors keeps its fronts, and mirrors the picture")
+{
+    GltfFile file = squareWithPicture(kCorners);
+    json material = unlit();
+    material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    file.setMaterial(material);
+    file.json["nodes"][0]["scale"] = {-1, 1, 1};
+    const std::vector<glm::vec4> picture = drawnFrom(file, 3.0f);
+    CHECK(at(picture, 10, 10) == kGreen);
+    CHECK(at(picture, 22, 22) == kBlue);
+}
+
+TEST_CASE("lit scene: backs are culled, unless the material has two sides, and are lit by their own normal")
+{
+    GltfFile file = GltfFile::square();
+    file.setMaterial({{"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
+    CHECK(middle(drawnFrom(file, -3.0f)) == samples::kBackground);
+    file.json["materials"][0]["doubleSided"] = true;
+    const glm::vec4 back = middle(drawnFrom(file, -3.0f)), front = middle(drawnFrom(file, 3.0f));
+    file.json["materials"][0]["doubleSided"] = false;
+    CHECK(middle(drawnFrom(file, 3.0f)) == front);
+    // What shows from behind is a square that is turned round.
+    file.json["nodes"][0]["rotation"] = {0, 1, 0, 0};
+    const glm::vec4 turned = middle(drawnFrom(file, -3.0f));
+    for (int i = 0; i < 3; ++i) CHECK(back[i] == doctest::Approx(turned[i]).epsilon(1e-5));
+    CHECK(back.x < front.x);  // the sun is in front
+}
+
+TEST_CASE("lit scene: a normal map's green is up, on mirrored nodes too")
+{
+    // Normals that lean up, (0, 0.6, 0.8), against a square that leans back by as much.
+    GltfFile file = squareWithPicture({128, 204, 230, 255, 128, 204, 230, 255, 128, 204, 230, 255, 128, 204, 230, 255});
+    file.setMaterial({{"normalTexture", {{"index", 0}}}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
+    const glm::vec4 up = middle(drawnFrom(file, 3.0f));
+    file.json["nodes"][0]["scale"] = {-1, 1, 1};
+    const glm::vec4 mirrored = middle(drawnFrom(file, 3.0f));
+    file.json["nodes"][0]["scale"] = {1, -1, 1};
+    const glm::vec4 upsideDown = middle(drawnFrom(file, 3.0f));
+    GltfFile tilted = GltfFile::square();
+    tilted.primitive()["attributes"]["NORMAL"] =
+        tilted.accessor<float>("VEC3", {0, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0.6f, 0.8f});
+    tilted.setMaterial({{"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
+    const glm::vec4 expected = middle(drawnFrom(tilted, 3.0f));
+    for (int i = 0; i < 3; ++i) {
+        CHECK(up[i] == doctest::Approx(expected[i]).epsilon(0.01));
+        CHECK(mirrored[i] == doctest::Approx(expected[i]).epsilon(0.01));
+    }
+    CHECK(upsideDown.x < up.x - 0.05f);  // leans down, away from sun and sky
+    file.json["nodes"][0].erase("scale");
+    file.json["materials"][0]["normalTexture"]["scale"] = 0;
+    tilted.primitive()["attributes"]["NORMAL"] = tilted.accessor<float>("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+    CHECK(middle(drawnFrom(file, 3.0f)) == middle(drawnFrom(tilted, 3.0f)));
+}
+
+TEST_CASE("lit scene: masked, blended and vertex colours")
+{
+    GltfFile file = squareWithPicture({255, 0, 0, 255, 255, 0, 0, 127, 255, 0, 0, 128, 255, 0, 0, 0});
+    json material = unlit();
+    material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    material["alphaMode"] = "MASK";
+    file.setMaterial(material);
+    std::vector<glm::vec4> picture = drawnFrom(file, 3.0f);
+    CHECK(at(picture, 10, 10) == kRed);
+    CHECK(at(picture, 22, 10) == samples::kBackground);
+    CHECK(at(picture, 10, 22) == kRed);
+    file.json["materials"][0]["alphaMode"] = "OPAQUE";
+    CHECK(at(drawnFrom(file, 3.0f), 22, 10) == kRed);
+    file.json["materials"][0]["alphaMode"] = "BLEND";
+    picture = drawnFrom(file, 3.0f);
+    CHECK(at(picture, 22, 22) == samples::kBackground);
+    CHECK(at(picture, 22, 10).x == doctest::Approx(127.0f / 255.0f + samples::kBackground.x * 128.0f / 255.0f));
+
+    GltfFile colored = GltfFile::square();
+    colored.setMaterial(unlit());
+    colored.primitive()["attributes"]["COLOR_0"] =
+        colored.accessor<float>("VEC3", {0, 0.5f, 1, 0, 0.5f, 1, 0, 0.5f, 1, 0, 0.5f, 1});
+    CHECK(middle(drawnFrom(colored, 3.0f)) == glm::vec4(0, 0.5f, 1, 1));
+}
+
+TEST_CASE("lit scene: what is blended is drawn from the farthest to the nearest")
+{
+    GltfFile file = GltfFile::square();
+    json near = unlit();
+    near["alphaMode"] = "BLEND";
+    json far = near;
+    near["pbrMetallicRoughness"]["baseColorFactor"] = {1, 0, 0, 0.5};
+    far["pbrMetallicRoughness"]["baseColorFactor"] = {0, 1, 0, 1};
+    json second = file.json["meshes"][0];
+    second["primitives"][0]["material"] = 1;
+    file.setMaterial(near);
+    file.json["materials"].push_back(far);
+    file.json["meshes"].push_back(second);
+    file.json["nodes"] = {{{"mesh", 0}, {"translation", {0, 0, 0.25}}}, {{"mesh", 1}}};
+    CHECK(glm::vec3(middle(drawnFrom(file, 3.0f))) == glm::vec3(0.5f, 0.5f, 0));
+}
+
+TEST_CASE("lit scene: a rough white square in the open, in numbers")
+{
+    // Metal or not, emission is added; occlusion takes light of the sky and none of the sun.
+    GltfFile file = squareWithPicture({0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255, 0, 255});
+    file.setMaterial({{"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
+    const glm::vec4 plain = middle(drawnFrom(file, 3.0f));
+    file.json["materials"][0]["emissiveFactor"] = {0.25, 0, 0};
+    CHECK(middle(drawnFrom(file, 3.0f)).x == doctest::Approx(plain.x + 0.25f));
+    file.json["materials"][0].erase("emissiveFactor");
+    file.json["materials"][0]["occlusionTexture"] = {{"index", 0}, {"strength", 0.5}};  // red is 0: half of the sky
+    const glm::vec4 half = middle(drawnFrom(file, 3.0f));
+    file.json["materials"][0]["occlusionTexture"]["strength"] = 1;
+    const glm::vec4 none = middle(drawnFrom(file, 3.0f));
+    CHECK(half.y == doctest::Approx((plain.y + none.y) / 2));
+    CHECK(none.y > 0.2f);
+    CHECK(none.y < plain.y - 0.1f);
+}
+
+TEST_CASE("lit scene: the file's camera, and one that sees all of it")
+{
+    GltfFile file = GltfFile::square();
+    file.setMaterial(unlit());
+    file.json["nodes"][0]["scale"] = {100, 100, 100};
+    std::vector<glm::vec4> picture = drawn(sceneOf(file));
+    CHECK(middle(picture) == kWhite);
+    for (int i = 0; i < kSide; ++i) {
+        for (const glm::vec4& edge :
+             {at(picture, i, 0), at(picture, i, kSide - 1), at(picture, 0, i), at(picture, kSide - 1, i)}) {
+            CHECK(edge == samples::kBackground);
+        }
+    }
+    // 90 degrees from 200 away: half of the picture's width and height.
+    file.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.5707963267948966}, {"znear", 1}}}}};
+    file.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 200}}});
+    picture = drawn(sceneOf(file));
+    for (int x = 0; x < kSide; ++x) {
+        CHECK((at(picture, x, kSide / 2) == kWhite) == (x >= kSide / 4 && x <= kSide - 1 - kSide / 4));
+    }
+}
+
+TEST_CASE("lit scene: the same bits for any number of lanes and threads")
+{
+    GltfFile file = squareWithPicture({128, 128, 255, 255, 200, 128, 230, 255, 128, 200, 230, 255, 90, 90, 220, 128});
+    file.setMaterial({{"normalTexture", {{"index", 0}, {"scale", 0.75}}},
+                      {"pbrMetallicRoughness",
+                       {{"baseColorTexture", {{"index", 0}}},
+                        {"metallicRoughnessTexture", {{"index", 0}}},
+                        {"baseColorFactor", {0.9, 0.8, 0.7, 1}}}},
+                      {"alphaMode", "BLEND"},
+                      {"doubleSided", true}});
+    json second = file.json["meshes"][0];
+    second["primitives"][0].erase("material");
+    second["primitives"][0]["attributes"].erase("NORMAL");
+    file.json["meshes"].push_back(second);
+    file.json["nodes"] = {{{"mesh", 0}, {"scale", {-1, 1, 1}}},
+                          {{"mesh", 1}, {"rotation", {0.6, 0, 0, 0.8}}, {"translation", {0.5, -0.5, -0.5}}}};
+    const LitScene scene = sceneOf(file);
+    for (const int threads : {1, 3}) {
+        Expected<Framebuffer> target = Framebuffer::create(160, 90, Format::rgba32f);
+        REQUIRE(target.has_value());
+        Frame frame(*target, {.threads = threads});
+        REQUIRE(scene.record(frame, 160, 90, samples::usualSurroundings()).has_value());
+        frame.run();
+        CHECK(hexadecimal(hashOf(*target)) == "3d0e2e555fa21555");
+    }
+}
