@@ -163,8 +163,7 @@ TEST_CASE("output merger: depth comparisons")
     int wrong = 0;
     forEachCompare([&]<Compare compare>() {
         for (const float z : values) {
-            for (const float stored : values)
-                wrong += compareBy(compare, z, stored)[0] != passes(compare, z, stored);
+            for (const float stored : values) wrong += compareBy(compare, z, stored)[0] != passes(compare, z, stored);
         }
     });
     CHECK(wrong == 0);

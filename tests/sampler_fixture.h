@@ -55,6 +55,7 @@ inline Texture randomTexture(TexelFormat format, int width, int height, std::uin
     return *Texture::fromRgbaFloat(width, height, pixels);
 }
 
+inline constexpr TexelFormat kColorFormats[] = {TexelFormat::rgba8, TexelFormat::rgba16, TexelFormat::rgba32Float};
 inline constexpr TexelFormat kFormats[] = {TexelFormat::rgba8, TexelFormat::rgba16, TexelFormat::rgba32Float,
                                            TexelFormat::r32Float};
 inline constexpr AddressMode kModes[] = {AddressMode::wrap, AddressMode::mirror, AddressMode::clamp,

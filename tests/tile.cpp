@@ -42,6 +42,15 @@ std::uint32_t packed(const glm::vec4& color, Format format)
 
 const int kTileSizes[] = {16, 32, 64, 128};
 
+// Of a target with one colour.
+Clear cleared(const std::optional<glm::vec4>& color, const std::optional<float>& depth)
+{
+    Clear clear;
+    clear.color[0] = color;
+    clear.depth = depth;
+    return clear;
+}
+
 }  // namespace
 
 TEST_CASE("tile: load and store keep every bit (S-318, S-957)")
@@ -58,7 +67,7 @@ TEST_CASE("tile: load and store keep every bit (S-318, S-957)")
                     const TargetMemory from(source), to(copy);
                     for (int y = 0; y < size[1]; y += tileSize) {
                         for (int x = 0; x < size[0]; x += tileSize) {
-                            tile.begin(x, y, from, {std::nullopt, clearFor(depth, 0.5f)});
+                            tile.begin(x, y, from, cleared(std::nullopt, clearFor(depth, 0.5f)));
                             tile.store(to);
                         }
                     }
@@ -92,17 +101,17 @@ TEST_CASE("tile: store and clear write their own rectangle only (S-957)")
             return changed + kept;
         };
         Tile tile(16, TargetMemory(target));
-        tile.begin(32, 16, TargetMemory(target), {color, 2.0f});
+        tile.begin(32, 16, TargetMemory(target), cleared(color, 2.0f));
         tile.store(TargetMemory(target));
         CHECK(changedOutside({32, 16, 48, 32}) == 0);
 
         target = before;
-        tile.begin(48, 48, TargetMemory(target), {color, 2.0f});  // two pixels of it are in the target
+        tile.begin(48, 48, TargetMemory(target), cleared(color, 2.0f));  // two pixels of it are in the target
         tile.store(TargetMemory(target));
         CHECK(changedOutside({48, 48, 50, 50}) == 0);
 
         target = before;
-        clearRectangle(TargetMemory(target), {45, -10, 61, 6}, {color, 2.0f});
+        clearRectangle(TargetMemory(target), {45, -10, 61, 6}, cleared(color, 2.0f));
         CHECK(changedOutside({45, 0, 50, 6}) == 0);
     }
 }
@@ -115,9 +124,9 @@ TEST_CASE("tile: a cleared tile and a cleared rectangle are the same, also for c
                                        glm::vec4(nan, infinity, -infinity, nan)}) {
             Framebuffer a = makeTarget(20, 20, format), b = makeTarget(20, 20, format), c = makeTarget(20, 20, format);
             Tile tile(32, TargetMemory(a));
-            tile.begin(0, 0, TargetMemory(a), {color, 1.0f});
+            tile.begin(0, 0, TargetMemory(a), cleared(color, 1.0f));
             tile.store(TargetMemory(a));
-            clearRectangle(TargetMemory(b), {0, 0, 32, 32}, {color, 1.0f});
+            clearRectangle(TargetMemory(b), {0, 0, 32, 32}, cleared(color, 1.0f));
             CHECK(sameBits(a, b));
             Frame frame(c, {1, 16});
             frame.clear(color);
@@ -164,8 +173,8 @@ TEST_CASE("tile: nothing of the tile before remains after clear and load")
 {
     Framebuffer target = makeTarget(40, 40, Format::rgba8, Store::discard);
     Tile tile(32, TargetMemory(target));
-    tile.begin(0, 0, TargetMemory(target), {glm::vec4(1.0f), 0.25f});
-    tile.begin(32, 32, TargetMemory(target), {std::nullopt, 0.75f});
+    tile.begin(0, 0, TargetMemory(target), cleared(glm::vec4(1.0f), 0.25f));
+    tile.begin(32, 32, TargetMemory(target), cleared(std::nullopt, 0.75f));
     for (int block = 0; block < 32 * 32 / kLanes; ++block) {
         for (int lane = 0; lane < kLanes; ++lane) {
             REQUIRE(tile.color<Format::rgba8>(0, block)[lane] == 0);

@@ -45,10 +45,11 @@ struct NoColor {
     float4 operator()(DepthInterpolators) const { return float4(0.0f); }
 };
 
+template <bool BUMPS>
 struct MyFragmentProgram : ShadowMaterial {
     float4x4 lightFromWorld = {};
     SamplerComparisonState shadowMap = {};
-    Float offset = 0.0f;  // along the surface's own normal, not the bump's
+    Float offset = 0.0f;  // along the surface's own normal, not the bump's  // new
 
     // The share of light that arrives: what is no farther from the light than the surface that it saw there.
     Float Shadow(const float3& worldPos) const {
@@ -58,12 +59,14 @@ struct MyFragmentProgram : ShadowMaterial {
 
     float4 operator()(Interpolators i) const {
         float3 normal = normalize(i.normal);
-        const Float shadow = Shadow(i.worldPos + normal * offset);
-        const float3 binormal =
-            CreateBinormal(i.normal, i.tangent.xyz(), i.tangent.w, object.unity_WorldTransformParams.w);
-        const float3 bump = UnpackScaleNormal(tex2D(normalMap, i.uv), bumpScale);
-        normal = TangentSpaceToWorld(bump, i.tangent.xyz(), binormal, i.normal);
-        const Float diffuse = saturate(dot(normal, light.dir)) * shadow;
+        const Float shadow = Shadow(i.worldPos + normal * offset);  // new
+        if constexpr (BUMPS) {
+            const float3 binormal =
+                CreateBinormal(i.normal, i.tangent.xyz(), i.tangent.w, object.unity_WorldTransformParams.w);
+            const float3 bump = UnpackScaleNormal(tex2D(normalMap, i.uv), bumpScale);
+            normal = TangentSpaceToWorld(bump, i.tangent.xyz(), binormal, i.normal);
+        }
+        const Float diffuse = saturate(dot(normal, light.dir)) * shadow;  // new
         return float4(tint.rgb() * (light.color * diffuse + ambient), 1);
     }
 };
@@ -71,8 +74,8 @@ struct MyFragmentProgram : ShadowMaterial {
 struct Lamp : ShadowMaterial {
     Float mapSize = number("mapSize", 256.0f, {16, 2048}, "side of the shadow map, texels");
     Float constantBias = number("constantBias", 60000.0f, {0, 1e6f}, "steps of a float that depths are moved away");
-    Float slopeBias = number("slopeBias", 1.5f, {0, 16}, "of what depth changes by from a texel to the next");
-    Float normalOffset = number("normalOffset", 0.03f, {0, 0.5f}, "how far a point is moved off its surface");
+    Float slopeBias = number("slopeBias", 1.5f, {0, 16}, "of what depth changes by from a texel to the next");  // new
+    Float normalOffset = number("normalOffset", 0.03f, {0, 0.5f}, "how far a point is moved off its surface");  // new
 };
 
 glm::mat4 LightFromWorld(const Lamp& lamp) {
@@ -91,14 +94,15 @@ sampler2D ShadowMap(const Scene& s, const Lamp& lamp, const RenderState& state =
 }
 
 // With a map that is drawn with a bias, in one column of the picture.
-void DrawColumn(const Scene& s, int column, const Lamp& lamp, const DepthBias& bias, Float offset) {
-    const sampler2D map = ShadowMap(s, lamp, {.depthBias = bias});
-    s.cutCell(column, 4);
+template <bool BUMPS>
+void DrawColumn(const Scene& s, int column, const Lamp& lamp, const DepthBias& bias, Float offset = 0.0f) {  // new
+    const sampler2D map = ShadowMap(s, lamp, {.depthBias = bias});                                           // new
+    s.cutCell(column, 4);                                                                                    // new
     for (const Object& o : s.objects) {
-        MyFragmentProgram fragment = s.uniforms(o.worldFromObject);
+        MyFragmentProgram<BUMPS> fragment = s.uniforms(o.worldFromObject);
         fragment.lightFromWorld = broadcast(LightFromWorld(lamp));
         fragment.shadowMap = {map.texture};
-        fragment.offset = offset;
+        fragment.offset = offset;  // new
         s.draw(*o.mesh, MyVertexProgram(s.uniforms(o.worldFromObject)), fragment);
     }
 }
@@ -109,16 +113,16 @@ Stage beyond_05_shadow_bias() {
     return {.title = "Shadow bias",
             .section = "D3D 11.3 15.10; Rendering 7",
             .news = "Constant, by slope, along the normal; and too much, where shadows let go of their objects.",
-            .uniforms = declared<MyFragmentProgram, Lamp>(),
+            .uniforms = declared<MyFragmentProgram<true>, Lamp>(),
             .mesh = "cube+sphere+quad",
             .camera = {.position = {0.0f, 1.2f, -3.3f}, .target = {0.0f, -0.1f, 0.0f}},
             .draw = [](const Scene& s) {
                 const Lamp lamp = s.uniforms();
                 const float constant = lamp.constantBias[0], slope = lamp.slopeBias[0];
-                DrawColumn(s, 0, lamp, {constant, 0.0f, 0.0f}, 0.0f);
-                DrawColumn(s, 1, lamp, {0.0f, slope, 0.0f}, 0.0f);
-                DrawColumn(s, 2, lamp, {}, lamp.normalOffset);
-                DrawColumn(s, 3, lamp, {constant * 80.0f, slope, 0.0f}, 0.0f);
+                DrawColumn<true>(s, 0, lamp, {constant, 0.0f, 0.0f});
+                DrawColumn<true>(s, 1, lamp, {0.0f, slope, 0.0f});
+                DrawColumn<true>(s, 2, lamp, {}, lamp.normalOffset);
+                DrawColumn<true>(s, 3, lamp, {constant * 80.0f, slope, 0.0f});
                 s.labelColumns({"constant", "by slope", "along the normal", "too much"});
             }};
 }

@@ -46,28 +46,27 @@ struct NoColor {
 };
 
 // TAPS x TAPS comparisons of 2x2 texels each; 0: one texel, and yes or no.
-template <int TAPS>
+template <int TAPS>  // new
 struct MyFragmentProgram : ShadowMaterial {
     float4x4 lightFromWorld = {};
     SamplerComparisonState shadowMap = {};
-    sampler2D depths = {};
-    Float offset = 0.0f;  // along the surface's own normal, not the bump's
+    sampler2D depths = {};  // new
+    Float offset = 0.0f;    // along the surface's own normal, not the bump's  // new
 
     // The share of light that arrives.
     Float Shadow(const float3& worldPos) const {
         const float4 p = mul(lightFromWorld, float4(worldPos, 1));
-        const float2 uv = p.xy() * 0.5f + 0.5f;
-        if constexpr (TAPS == 0) return select(p.z <= tex2D(depths, uv).x, Float(1.0f), Float(0.0f));
-        const float2 texel = texelSize(depths).xy();
-        Float sum = 0.0f;
-        for (int y = 0; y < TAPS; ++y) {
-            for (int x = 0; x < TAPS; ++x) {
-                const float2 aside(static_cast<float>(x) - (TAPS - 1) * 0.5f,
-                                   static_cast<float>(y) - (TAPS - 1) * 0.5f);
-                sum += SampleCmp(shadowMap, uv + aside * texel, p.z);
+        const float2 uv = p.xy() * 0.5f + 0.5f;  // new
+        if constexpr (TAPS == 0) return select(p.z <= tex2D(depths, uv).x, Float(1.0f), Float(0.0f));  // new
+        const float2 texel = texelSize(depths).xy();  // new
+        Float sum = 0.0f;  // new
+        for (int y = 0; y < TAPS; ++y) {  // new
+            for (int x = 0; x < TAPS; ++x) {  // new
+                const float2 aside = {Float(static_cast<float>(x)), Float(static_cast<float>(y))};  // new
+                sum += SampleCmp(shadowMap, uv + (aside - (TAPS - 1) * 0.5f) * texel, p.z);  // new
             }
         }
-        return sum / static_cast<float>(TAPS * TAPS);
+        return sum / static_cast<float>(TAPS * TAPS);  // new
     }
 
     float4 operator()(Interpolators i) const {
@@ -83,9 +82,9 @@ struct MyFragmentProgram : ShadowMaterial {
 };
 
 struct Lamp : ShadowMaterial {
-    Float mapSize = number("mapSize", 128.0f, {16, 2048}, "side of the shadow map, texels");
+    Float mapSize = number("mapSize", 128.0f, {16, 2048}, "side of the shadow map, texels");  // new
     Float slopeBias = number("slopeBias", 1.5f, {0, 16}, "of what depth changes by from a texel to the next");
-    Float normalOffset = number("normalOffset", 0.04f, {0, 0.5f}, "how far a point is moved off its surface");
+    Float normalOffset = number("normalOffset", 0.04f, {0, 0.5f}, "how far a point is moved off its surface");  // new
 };
 
 glm::mat4 LightFromWorld(const Lamp& lamp) {
@@ -103,16 +102,17 @@ sampler2D ShadowMap(const Scene& s, const Lamp& lamp, const RenderState& state =
     return s.sampled(map, map.depthIndex());
 }
 
-template <int TAPS>
-void DrawColumn(const Scene& s, int column, const Lamp& lamp, sampler2D map) {
-    map.filter = Filter::nearest;
+// In one column of the picture.
+template <int TAPS>  // new
+void DrawColumn(const Scene& s, int column, const Lamp& lamp, sampler2D map) {  // new
+    map.filter = Filter::nearest;  // new
     s.cutCell(column, 4);
     for (const Object& o : s.objects) {
-        MyFragmentProgram<TAPS> fragment = s.uniforms(o.worldFromObject);
+        MyFragmentProgram<TAPS> fragment = s.uniforms(o.worldFromObject);  // new
         fragment.lightFromWorld = broadcast(LightFromWorld(lamp));
         fragment.shadowMap = {map.texture};
-        fragment.depths = map;
-        fragment.offset = lamp.normalOffset;
+        fragment.depths = map;  // new
+        fragment.offset = lamp.normalOffset;  // new
         s.draw(*o.mesh, MyVertexProgram(s.uniforms(o.worldFromObject)), fragment);
     }
 }

@@ -46,8 +46,8 @@ struct MyFragmentProgram : ParallaxMaterial {
     // the offset stays small, instead of going to infinity.
     float2 ParallaxOffset(const Interpolators& i, const float2& dx, const float2& dy) const {
         const Float height = (HeightAt(i.uv, dx, dy) - 0.5f) * parallaxStrength;
-        const float3 viewDir = normalize(i.viewDir);
-        return viewDir.xy() / (viewDir.z + parallaxBias) * height;
+        const float3 viewDir = normalize(i.viewDir);                // new
+        return viewDir.xy() / (viewDir.z + parallaxBias) * height;  // new
     }
 
     float4 operator()(Interpolators i) const {

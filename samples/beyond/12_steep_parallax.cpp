@@ -36,7 +36,7 @@ struct MyVertexProgram : ParallaxMaterial {
 };
 
 struct MyFragmentProgram : ParallaxMaterial {
-    Float steps = number("steps", 10.0f, {1, 128}, "layers that the ray goes down through");
+    Float steps = number("steps", 10.0f, {1, 128}, "layers that the ray goes down through");  // new
 
     Float HeightAt(const float2& uv, const float2& dx, const float2& dy) const {
         return tex2Dgrad(heightMap, uv, dx, dy).x;
@@ -44,17 +44,17 @@ struct MyFragmentProgram : ParallaxMaterial {
 
     // Down along the ray of sight, layer by layer, until the surface is above it.
     float2 ParallaxOffset(const Interpolators& i, const float2& dx, const float2& dy) const {
-        const Float step = 1.0f / steps;
-        const float2 delta = i.viewDir.xy() / i.viewDir.z * (step * parallaxStrength);
-        float2 offset(0.0f);
-        Float ray = 1.0f;
-        Mask above = HeightAt(i.uv, dx, dy) < ray;
-        whileAny(above, [&] {
-            offset = select(above, offset - delta, offset);
-            ray = select(above, ray - step, ray);
-            above &= HeightAt(i.uv + offset, dx, dy) < ray;
+        const Float step = 1.0f / steps;                                                // new
+        const float2 delta = i.viewDir.xy() / i.viewDir.z * (step * parallaxStrength);  // new
+        float2 offset(0.0f);                                                            // new
+        Float ray = 1.0f;                                                               // new
+        Mask above = HeightAt(i.uv, dx, dy) < ray;                                      // new
+        whileAny(above, [&] {                                                           // new
+            offset = select(above, offset - delta, offset);                             // new
+            ray = select(above, ray - step, ray);                                       // new
+            above &= HeightAt(i.uv + offset, dx, dy) < ray;                             // new
         });
-        return offset;
+        return offset;  // new
     }
 
     float4 operator()(Interpolators i) const {

@@ -48,17 +48,17 @@ struct MyFragmentProgram : ParallaxMaterial {
         const Float step = 1.0f / steps;
         const float2 delta = i.viewDir.xy() / i.viewDir.z * (step * parallaxStrength);
         float2 offset(0.0f);
-        Float ray = 1.0f, surface = HeightAt(i.uv, dx, dy), surfaceBefore = surface;
-        Mask above = surface < ray;
+        Float ray = 1.0f, surface = HeightAt(i.uv, dx, dy), surfaceBefore = surface;  // new
+        Mask above = surface < ray;                                                   // new
         whileAny(above, [&] {
             offset = select(above, offset - delta, offset);
             ray = select(above, ray - step, ray);
-            surfaceBefore = select(above, surface, surfaceBefore);
-            surface = select(above, HeightAt(i.uv + offset, dx, dy), surface);
-            above &= surface < ray;
+            surfaceBefore = select(above, surface, surfaceBefore);              // new
+            surface = select(above, HeightAt(i.uv + offset, dx, dy), surface);  // new
+            above &= surface < ray;                                             // new
         });
-        const Float over = ray + step - surfaceBefore, under = surface - ray;
-        return offset + delta * select(ray < 1.0f, under / (over + under), Float(0.0f));
+        const Float over = ray + step - surfaceBefore, under = surface - ray;             // new
+        return offset + delta * select(ray < 1.0f, under / (over + under), Float(0.0f));  // new
     }
 
     float4 operator()(Interpolators i) const {

@@ -46,25 +46,25 @@ struct MyFragmentProgram : ParallaxMaterial {
     // Down along the ray of sight, layer by layer, until the surface is above it; then half a step back or forth, a
     // quarter, an eighth: each bisection is worth a doubling of the layers.
     float2 ParallaxOffset(const Interpolators& i, const float2& dx, const float2& dy) const {
-        Float step = 1.0f / steps;
-        float2 delta = i.viewDir.xy() / i.viewDir.z * (step * parallaxStrength);
+        Float step = 1.0f / steps;                                                // new
+        float2 delta = i.viewDir.xy() / i.viewDir.z * (step * parallaxStrength);  // new
         float2 offset(0.0f);
-        Float ray = 1.0f;
-        Mask above = HeightAt(i.uv, dx, dy) < ray;
+        Float ray = 1.0f;                           // new
+        Mask above = HeightAt(i.uv, dx, dy) < ray;  // new
         whileAny(above, [&] {
             offset = select(above, offset - delta, offset);
             ray = select(above, ray - step, ray);
-            above &= HeightAt(i.uv + offset, dx, dy) < ray;
+            above &= HeightAt(i.uv + offset, dx, dy) < ray;  // new
         });
-        for (int k = 0; k < bisections; ++k) {
-            step *= 0.5f;
-            delta *= 0.5f;
-            above = HeightAt(i.uv + offset, dx, dy) < ray;
-            const Float sign = select(above, Float(-1.0f), Float(1.0f));
-            offset += delta * sign;
-            ray += step * sign;
+        for (int k = 0; k < bisections; ++k) {                            // new
+            step *= 0.5f;                                                 // new
+            delta *= 0.5f;                                                // new
+            above = HeightAt(i.uv + offset, dx, dy) < ray;                // new
+            const Float sign = select(above, Float(-1.0f), Float(1.0f));  // new
+            offset += delta * sign;                                       // new
+            ray += step * sign;                                           // new
         }
-        return offset;
+        return offset;  // new
     }
 
     float4 operator()(Interpolators i) const {

@@ -69,19 +69,19 @@ struct MyFragmentProgram : ParallaxMaterial {
     }
 
     // What of the light arrives where the ray of sight ended: a second march, from there up towards the light.
-    Float Shadow(const Interpolators& i, const float2& uv, const float2& dx, const float2& dy) const {
-        const Float step = 1.0f / steps, start = HeightAt(uv, dx, dy);
-        const float2 delta = i.lightDir.xy() / i.lightDir.z * (step * parallaxStrength);
-        float2 offset(0.0f);
-        Float ray = start + shadowBias;
-        Mask free = ray<1.0f & i.lightDir.z> 0.0f, climbing = free;
-        whileAny(climbing, [&] {
-            offset = select(climbing, offset + delta, offset);
-            ray = select(climbing, ray + step, ray);
-            free &= !(climbing & (HeightAt(uv + offset, dx, dy) > ray));
-            climbing &= free & (ray < 1.0f);
+    Float Shadow(const Interpolators& i, const float2& uv, const float2& dx, const float2& dy) const {  // new
+        const Float step = 1.0f / steps, start = HeightAt(uv, dx, dy);                                  // new
+        const float2 delta = i.lightDir.xy() / i.lightDir.z * (step * parallaxStrength);                // new
+        float2 offset(0.0f);                                                                            // new
+        Float ray = start + shadowBias;                                                                 // new
+        Mask free = (ray < 1.0f) & (i.lightDir.z > 0.0f), climbing = free;                              // new
+        whileAny(climbing, [&] {                                                                        // new
+            offset = select(climbing, offset + delta, offset);                                          // new
+            ray = select(climbing, ray + step, ray);                                                    // new
+            free &= !(climbing & (HeightAt(uv + offset, dx, dy) > ray));                                // new
+            climbing &= free & (ray < 1.0f);                                                            // new
         });
-        return select(free | (ray >= 1.0f), Float(1.0f), Float(0.0f));
+        return select(free | (ray >= 1.0f), Float(1.0f), Float(0.0f));  // new
     }
 
     float4 operator()(Interpolators i) const {
@@ -89,7 +89,7 @@ struct MyFragmentProgram : ParallaxMaterial {
         i.uv += ParallaxOffset(i, dx, dy);
         const float3 albedo = tex2Dgrad(mainTex, i.uv, dx, dy).rgb();
         const float3 normal = normalize(UnpackScaleNormal(tex2Dgrad(normalMap, i.uv, dx, dy), bumpScale));
-        const Float diffuse = saturate(dot(normal, normalize(i.lightDir))) * Shadow(i, i.uv, dx, dy);
+        const Float diffuse = saturate(dot(normal, normalize(i.lightDir))) * Shadow(i, i.uv, dx, dy);  // new
         return float4(albedo * (light.color * diffuse + ambient), 1);
     }
 };

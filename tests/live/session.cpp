@@ -114,7 +114,9 @@ TEST_CASE("live: a save changes the picture, an error leaves it, a fix brings th
                          "float3 operator()(Interpolators i) const {\n        const float3 albedo"));
     CHECK(edited.until([&] {
         return edited.session->problem()->diagnostics.front().message ==
-               "the fragment program must take the Interpolators that the vertex program returns, and return float4";
+               "the fragment program must take the Interpolators that the vertex program returns, and return float4, "
+               "or "
+               "a struct of SV_Target<0> ... SV_Target<3>, SV_Depth, SV_Coverage";
     }));
 }
 
