@@ -56,14 +56,14 @@ struct MyFragmentProgram : ShadowMaterial {
     // The share of light that arrives.
     Float Shadow(const float3& worldPos) const {
         const float4 p = mul(lightFromWorld, float4(worldPos, 1));
-        const float2 uv = p.xy() * 0.5f + 0.5f;  // new
+        const float2 uv = p.xy() * 0.5f + 0.5f;                                                        // new
         if constexpr (TAPS == 0) return select(p.z <= tex2D(depths, uv).x, Float(1.0f), Float(0.0f));  // new
-        const float2 texel = texelSize(depths).xy();  // new
-        Float sum = 0.0f;  // new
-        for (int y = 0; y < TAPS; ++y) {  // new
-            for (int x = 0; x < TAPS; ++x) {  // new
-                const float2 aside = {Float(static_cast<float>(x)), Float(static_cast<float>(y))};  // new
-                sum += SampleCmp(shadowMap, uv + (aside - (TAPS - 1) * 0.5f) * texel, p.z);  // new
+        const float2 texel = texelSize(depths).xy();                                                   // new
+        Float sum = 0.0f;                                                                              // new
+        for (int y = 0; y < TAPS; ++y) {                                                               // new
+            for (int x = 0; x < TAPS; ++x) {                                                           // new
+                const float2 aside = {Float(static_cast<float>(x)), Float(static_cast<float>(y))};     // new
+                sum += SampleCmp(shadowMap, uv + (aside - (TAPS - 1) * 0.5f) * texel, p.z);            // new
             }
         }
         return sum / static_cast<float>(TAPS * TAPS);  // new
@@ -103,15 +103,15 @@ sampler2D ShadowMap(const Scene& s, const Lamp& lamp, const RenderState& state =
 }
 
 // In one column of the picture.
-template <int TAPS>  // new
+template <int TAPS>                                                             // new
 void DrawColumn(const Scene& s, int column, const Lamp& lamp, sampler2D map) {  // new
-    map.filter = Filter::nearest;  // new
+    map.filter = Filter::nearest;                                               // new
     s.cutCell(column, 4);
     for (const Object& o : s.objects) {
         MyFragmentProgram<TAPS> fragment = s.uniforms(o.worldFromObject);  // new
         fragment.lightFromWorld = broadcast(LightFromWorld(lamp));
         fragment.shadowMap = {map.texture};
-        fragment.depths = map;  // new
+        fragment.depths = map;                // new
         fragment.offset = lamp.normalOffset;  // new
         s.draw(*o.mesh, MyVertexProgram(s.uniforms(o.worldFromObject)), fragment);
     }
