@@ -35,12 +35,13 @@ LitScene sceneOf(const GltfFile& file)
 }
 
 // The scene from straight ahead: a square of 2 x 2 fills most of the picture. Linear colours, row 0 on top.
-std::vector<glm::vec4> drawn(const LitScene& scene, int threads = 1)
+std::vector<glm::vec4> drawn(const LitScene& scene, int threads = 1,
+                             const samples::Surroundings& light = samples::usualSurroundings())
 {
     Expected<Framebuffer> target = Framebuffer::create(kSide, kSide, Format::rgba32f);
     REQUIRE(target.has_value());
     Frame frame(*target, {.threads = threads});
-    REQUIRE(scene.record(frame, kSide, kSide, samples::usualSurroundings()).has_value());
+    REQUIRE(scene.record(frame, kSide, kSide, light).has_value());
     frame.run();
     return {target->color32f().begin(), target->color32f().end()};
 }
@@ -263,4 +264,77 @@ TEST_CASE("lit scene: the same bits for any number of lanes and threads")
         frame.run();
         CHECK(hexadecimal(hashOf(*target)) == "3d0e2e555fa21555");
     }
+}
+
+// --- shadows and surroundings ---
+
+namespace {
+
+// A matte square, and a small one before it whose shadow falls to the lower right of who looks along -z.
+LitScene twoSquares(const char* alphaMode)
+{
+    GltfFile file = GltfFile::square();
+    file.setMaterial({{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorFactor", {1, 1, 1, 0.75}}}},
+                      {"alphaMode", alphaMode}});
+    file.json["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 0.5}}, {"scale", {0.2, 0.2, 0.2}}});
+    LitScene scene = sceneOf(file);
+    scene.lookFrom({.position = {0, 0, 3}});
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("lit scene: what the sun does not see is in shadow, and everything else is as bright as before")
+{
+    for (const char* alphaMode : {"OPAQUE", "MASK", "BLEND"}) {
+        CAPTURE(alphaMode);
+        const LitScene scene = twoSquares(alphaMode);
+        samples::Surroundings light = samples::usualSurroundings();
+        const std::vector<glm::vec4> without = drawn(scene, 1, light);
+        const Expected<samples::SunShadow> shadow = scene.shadowOf(light.sun.dir, 1);
+        REQUIRE(shadow.has_value());
+        light.shadow = &*shadow;
+        const std::vector<glm::vec4> with = drawn(scene, 1, light), again = drawn(scene, 2, light);
+        CHECK(with == again);
+        // The middle of the shadow: the small square's middle, moved by 0.5 / 0.55 of the sun's direction.
+        const bool casts = std::string(alphaMode) != "BLEND";
+        CHECK((at(with, 25, 29).x < 0.6f * at(without, 25, 29).x) == casts);
+        int darker = 0, brighter = 0;
+        for (std::size_t i = 0; i < with.size(); ++i) {
+            darker += with[i].x < without[i].x;
+            brighter += with[i].x > without[i].x;
+        }
+        CHECK(brighter == 0);
+        if (casts) CHECK((darker > 9 && darker < 60));  // 0.4 of 2.4 units each way, and soft edges
+        if (!casts) CHECK(darker == 0);
+    }
+}
+
+TEST_CASE("lit scene: surroundings that are the same everywhere light a mirror and a matte surface alike")
+{
+    const TemporaryFolder folder;
+    const std::string path = (folder / "grey.png").string();
+    const std::vector<std::uint8_t> pixels(std::size_t{64} * 32 * 4, 188);
+    REQUIRE(writePng(path, 64, 32, pixels).has_value());
+    const Expected<samples::Environment> grey = samples::readEnvironment(path, 1);
+    REQUIRE_MESSAGE(grey.has_value(), grey.error().message);
+    CHECK(grey->mirrored.levelCount() > 3);
+    samples::Surroundings light = samples::usualSurroundings();
+    light.sun.color = float3(0.0f);
+    light.sky = grey->irradiance;
+    light.mirrored = &grey->mirrored;
+    const float radiance = srgbToLinear(std::uint8_t{188});
+    for (const float metallic : {0.0f, 1.0f}) {
+        GltfFile file = GltfFile::square();
+        file.setMaterial({{"pbrMetallicRoughness", {{"metallicFactor", metallic}, {"roughnessFactor", 0.0f}}}});
+        LitScene scene = sceneOf(file);
+        scene.lookFrom({.position = {0, 0, 3}});
+        CHECK(middle(drawn(scene, 1, light)).x == doctest::Approx(radiance).epsilon(0.01));
+    }
+    CHECK_FALSE(samples::readEnvironment((folder / "none.hdr").string(), 1).has_value());
+    REQUIRE(writePng(path, 50, 32, std::vector<std::uint8_t>(std::size_t{50} * 32 * 4, 1)).has_value());
+    const Expected<samples::Environment> odd = samples::readEnvironment(path, 1);
+    REQUIRE_FALSE(odd.has_value());
+    CHECK(odd.error().message.starts_with(path));
+    CHECK(odd.error().message.find('\n') == std::string::npos);
 }

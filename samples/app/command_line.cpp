@@ -172,8 +172,10 @@ Expected<void> renderWith(const CLI::App& command, const RenderOptions& options,
     auto* const function = watch                   ? program.renderAtEverySave
                            : options.scene.empty() ? program.render
                                                    : program.renderScene;
-    const std::string other =
-        otherOption(command, {"--scene", "--size", "--threads", "--camera", "--output", "--tile", "--samples"});
+    const std::string other = otherOption(
+        command, {"--scene", "--environment", "--size", "--threads", "--camera", "--output", "--tile", "--samples"});
+    if (options.scene.empty() && !options.environment.empty())
+        return fail("--environment " + options.environment + ": surrounds a scene; name one with --scene FILE.glb");
     if (!options.scene.empty() && !other.empty()) return fail(other + ": render --scene does not take it");
     return function != nullptr ? function(options, output) : elsewhere("render");
 }
@@ -318,6 +320,10 @@ int runProgram(int argc, char** argv, const Program& program)
     command
         ->add_option("--scene", options.scene,
                      "A .gltf or .glb file in place of a stage; takes --size, --threads, --camera, --tile, --samples")
+        ->type_name("FILE");
+    command
+        ->add_option("--environment", options.environment,
+                     "With --scene: what surrounds it, a picture that import-environment wrote or takes")
         ->type_name("FILE");
     command->add_option("-o,--output", output, "The file; default: the stage's name")->type_name("FILE.png");
     bool watch = false;

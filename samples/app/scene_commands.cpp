@@ -27,7 +27,19 @@ Expected<void> renderScene(const RenderOptions& options, const std::string& outp
         Framebuffer::create(size->width, size->height, Format::rgba8Srgb, Store::discard, options.samples);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = options.threads, .tileSize = options.tileSize});
-    if (const auto recorded = scene.record(frame, size->width, size->height, usualSurroundings()); !recorded) {
+    Surroundings light = usualSurroundings();
+    std::optional<Environment> environment;
+    if (!options.environment.empty()) {
+        Expected<Environment> read = readEnvironment(options.environment, options.threads);
+        if (!read) return tl::unexpected(read.error());
+        environment = std::move(*read);
+        light.sky = environment->irradiance;
+        light.mirrored = &environment->mirrored;
+    }
+    const Expected<SunShadow> shadow = scene.shadowOf(light.sun.dir, options.threads);
+    if (!shadow) return tl::unexpected(shadow.error());
+    light.shadow = &*shadow;
+    if (const auto recorded = scene.record(frame, size->width, size->height, light); !recorded) {
         return tl::unexpected(recorded.error());
     }
     frame.run();

@@ -1,7 +1,7 @@
 // 5.03 Depth from the light: Williams 1978; Rendering 7
 // New: a target as a texture. The scene is drawn from the light first, and its depth is shown on a quad.
-// Was: one frame, one picture (4.13).
-#include "common/assets.h"
+// Was: a target that is shown (5.01).
+#include "common/screen_quad.h"
 #include "common/stage.h"
 
 namespace relief::samples {
@@ -41,29 +41,10 @@ struct MyFragmentProgram : ShadowMaterial {
     }
 };
 
-struct QuadVertexData {
-    POSITION position;
-    TEXCOORD<0, float2> uv;
-};
-
-struct QuadInterpolators {
-    SV_POSITION position;
-    TEXCOORD<0, float2> uv;
-};
-
-// A quad on the screen, as large as it can be.
-struct QuadVertexProgram {
-    float height, width;
-
-    QuadInterpolators operator()(QuadVertexData v) const {
-        return {float4(v.position.x * (1.6f * height / width), v.position.y * 1.6f, 0.5f, 1.0f), v.uv};
-    }
-};
-
 struct ShowDepth {
     sampler2D depth;
 
-    float4 operator()(QuadInterpolators i) const { return float4(float3(tex2D(depth, i.uv).x), 1); }
+    float4 operator()(ScreenInterpolators i) const { return float4(float3(tex2D(depth, i.uv).x), 1); }
 };
 
 struct Lamp : ShadowMaterial {
@@ -73,31 +54,31 @@ struct Lamp : ShadowMaterial {
 }  // namespace
 
 Stage beyond_03_depth_from_the_light() {
-    return {.title = "Depth from the light",
-            .section = "Williams 1978; Rendering 7",
-            .news = "A target as a texture: the scene, and its depth as the light sees it.",
-            .uniforms = declared<MyFragmentProgram, Lamp>(),
-            .mesh = "cube+sphere+quad",
-            .camera = {.position = {0.0f, 1.3f, -3.6f}, .target = {0.0f, -0.1f, 0.0f}},
-            .draw = [](const Scene& s) {
-                const Lamp lamp = s.uniforms();
-                const glm::vec3 away = firstLane(lamp.light.dir);
-                const glm::mat4 clipFromWorld =
-                    orthographic(4.4f, 4.4f, 1.0f, 6.0f) * lookAt(away * 3.5f, glm::vec3(0));
-                const int side = static_cast<int>(lamp.mapSize[0]);
-                const Framebuffer& map = s.pass(*Framebuffer::create(side, side, {{Format::depth32f}}), clipFromWorld,
-                                                [](const Scene& fromLight) {
-                                                    for (const Object& o : fromLight.objects)
-                                                        fromLight.draw<DepthVertexProgram, NoColor>(o);
-                                                });
+    return {
+        .title = "Depth from the light",
+        .section = "Williams 1978; Rendering 7",
+        .news = "A target as a texture: the scene, and its depth as the light sees it.",
+        .uniforms = declared<MyFragmentProgram, Lamp>(),
+        .mesh = "cube+sphere+quad",
+        .camera = {.position = {0.0f, 1.3f, -3.6f}, .target = {0.0f, -0.1f, 0.0f}},
+        .draw = [](const Scene& s) {
+            const Lamp lamp = s.uniforms();
+            const glm::vec3 away = firstLane(lamp.light.dir);
+            const glm::mat4 clipFromWorld = orthographic(4.4f, 4.4f, 1.0f, 6.0f) * lookAt(away * 3.5f, glm::vec3(0));
+            const int side = static_cast<int>(lamp.mapSize[0]);
+            const Framebuffer& map = s.pass(*Framebuffer::create(side, side, {{Format::depth32f}}), clipFromWorld,
+                                            [](const Scene& fromLight) {
+                                                for (const Object& o : fromLight.objects)
+                                                    fromLight.draw<DepthVertexProgram, NoColor>(o);
+                                            });
 
-                s.cutCell(0, 2);
-                for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram>(o);
-                s.cutCell(1, 2);
-                const QuadVertexProgram quad = {static_cast<float>(s.height), static_cast<float>(s.width)};
-                s.draw(primitive("quad"), quad, ShowDepth{s.sampled(map, map.depthIndex())});
-                s.labelColumns({"from the camera", "depth from the light: 0 black, 1 white"});
-            }};
+            s.cutCell(0, 2);
+            for (const Object& o : s.objects) s.draw<MyVertexProgram, MyFragmentProgram>(o);
+            s.cutCell(1, 2);
+            const float width = 0.8f * static_cast<float>(s.height) / static_cast<float>(s.width);
+            s.draw(primitive("quad"), ScreenVertexProgram{width, 0.8f}, ShowDepth{s.sampled(map, map.depthIndex())});
+            s.labelColumns({"from the camera", "depth from the light: 0 black, 1 white"});
+        }};
 }
 
 }  // namespace relief::samples

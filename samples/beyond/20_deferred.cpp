@@ -1,7 +1,8 @@
 // 5.20 Deferred: Saito and Takahashi 1990; Rendering 13 and 15; Cigolle et al. 2014
 // New: several targets in one draw. The first pass writes down what is seen; the second lights it, pixel by pixel.
-// Was: each draw is lit while it is drawn (5.15).
+// Was: each draw is lit while it is drawn (5.19).
 #include "common/false_color.h"
+#include "common/screen_quad.h"
 #include "common/stage.h"
 
 namespace relief::samples {
@@ -85,23 +86,6 @@ struct WriteGBuffer : Bumpy {
 // The truth to measure by: the same draw, with the normal as floats.
 struct WriteNormal : Bumpy {
     float4 operator()(Interpolators i) const { return float4(NormalOf(i), 1); }
-};
-
-struct ScreenVertexData {
-    POSITION position;
-    TEXCOORD<0, float2> uv;
-};
-
-struct ScreenInterpolators {
-    SV_POSITION position;
-    TEXCOORD<0, float2> uv;
-};
-
-// The whole picture.
-struct ScreenVertexProgram {
-    ScreenInterpolators operator()(ScreenVertexData v) const {
-        return {float4(v.position.x * 2.0f, v.position.y * 2.0f, 0.5f, 1.0f), v.uv};
-    }
 };
 
 template <int ENCODING, bool SHOW_ERROR>

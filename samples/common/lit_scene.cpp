@@ -6,9 +6,13 @@
 #include <glm/geometric.hpp>
 
 #include "common/render.h"
+#include "pipeline/target_texture.h"
+#include "pipeline/workers.h"
 #include "shading/normals.h"
 #include "shading/object_transform.h"
 #include "shading/tangent_space.h"
+#include "texture/comparison_sampler.h"
+#include "texture/image.h"
 
 namespace relief::samples {
 
@@ -124,8 +128,33 @@ struct Surface
         const Float grazing = saturate(smoothness + (1.0f - oneMinusReflectivity));
         const float3 fresnel = lerp(specular, float3(grazing), Pow5(1.0f - abs(dot(normal, viewDir))));
         const Float squared = roughness * roughness;
-        const float3 mirrored = ShadeSH9(light.sky, reflect(-viewDir, normal));
+        const float3 direction = reflect(-viewDir, normal);
+        const float3 mirrored =
+            light.mirrored == nullptr
+                ? ShadeSH9(light.sky, direction)
+                : texCUBElod({light.mirrored},
+                             float4(direction, levelOfRoughness(roughness, light.mirrored->levelCount())))
+                      .xyz();
         return diffuse * ShadeSH9(light.sky, normal) + mirrored * fresnel * (1.0f / (squared * squared + 1.0f));
+    }
+
+    // The share of the sun that arrives: nine comparisons of 2x2 texels each, off the surface by a texel and a half.
+    Float shadow(const Interpolators<NORMAL_MAP>& i) const
+    {
+        if (light.shadow == nullptr) return 1.0f;
+        const SunShadow& sun = *light.shadow;
+        const float3 position = i.worldPos + normalize(i.normal) * (side * (1.5f * sun.texel));
+        const float4 p = mul(broadcast(sun.sunFromWorld), float4(position, 1.0f));
+        const float2 uv = p.xy() * 0.5f + 0.5f;
+        const float step = sun.depth.texelSize().x;
+        Float sum = 0.0f;
+        for (int y = -1; y <= 1; ++y) {
+            for (int x = -1; x <= 1; ++x) {
+                const float2 aside = {Float(static_cast<float>(x) * step), Float(static_cast<float>(y) * step)};
+                sum += SampleCmp({&sun.depth}, uv + aside, p.z);
+            }
+        }
+        return sum * (1.0f / 9.0f);
     }
 
     float3 lit(const Interpolators<NORMAL_MAP>& i, const float3& base) const
@@ -141,7 +170,8 @@ struct Surface
                                                               oneMinusReflectivity);
         const float3 direct = UNITY_BRDF_PBS_Exact(diffuse, specular, 1.0f - roughness, normal, viewDir,
                                                    CreateLight(light.sun, i.worldPos))
-                                  .xyz();
+                                  .xyz() *
+                              shadow(i);
         const Float occlusion = 1.0f + (sampled(material.occlusionTexture, i.uv).x - 1.0f) * material.occlusionStrength;
         const float3 emitted = sampled(material.emissiveTexture, i.uv).xyz() * broadcast(material.emissive);
         return direct + ambient(diffuse, specular, oneMinusReflectivity, roughness, normal, viewDir) * occlusion +
@@ -177,6 +207,20 @@ struct BlendedProgram : Surface<NORMAL_MAP>
         const float4 base = this->baseColor(i);
         return float4(this->lit(i, base.xyz()), saturate(base.w));
     }
+};
+
+// For the sun's depths: nothing but what a mask lets through.
+struct MaskAlone : Surface<false>
+{
+    float4 operator()(Interpolators<false> i, Discard& discard) const
+    {
+        discard(baseColor(i).w < material.alphaCutoff);
+        return float4(0.0f);
+    }
+};
+struct Nothing
+{
+    float4 operator()(const Interpolators<false>&) const { return float4(0.0f); }
 };
 
 template <bool NORMAL_MAP>
@@ -227,6 +271,66 @@ LitScene::LitScene(SceneFile itsScene) : scene(std::move(itsScene))
     for (int i = 0; i < 3; ++i) extent = std::max(extent, bounds.high[i] * 0.5f - bounds.low[i] * 0.5f);
     scale = extent > 0.0f ? std::clamp(kExtent * 0.5f / extent, 1e-30f, 1e30f) : 1.0f;
     worldFromScene = scaling(glm::vec3(scale)) * translation(-bounds.centre());
+}
+
+Expected<SunShadow> LitScene::shadowOf(const float3& sun, int threads, int side) const
+{
+    const float radius = std::max(scene.bounds.radius() * scale, 1e-3f);
+    const glm::mat4 sunFromWorld = orthographic(2.0f * radius, 2.0f * radius, radius, 3.0f * radius) *
+                                   lookAt(firstLane(sun) * (2.0f * radius), glm::vec3(0.0f));
+    Expected<Framebuffer> target = Framebuffer::create(side, side, {{Format::depth32f, Store::keep}});
+    if (!target) return tl::unexpected(target.error());
+    Frame frame(*target, {.threads = threads});
+    frame.clearDepth();
+    const RenderState state = {.cull = Cull::none, .depthBias = {.slope = 1.5f}};
+    for (const SceneInstance& instance : scene.instances) {
+        const SceneMaterial& material = scene.materials[instance.material];
+        if (material.alpha == SceneMaterial::Alpha::blend) continue;
+        const SceneVertexProgram<false> vertex = {
+            ObjectTransform(sunFromWorld, worldFromScene * instance.worldFromObject)};
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        const Expected<void> drawn = material.alpha == SceneMaterial::Alpha::mask
+                                         ? frame.draw(mesh, vertex, MaskAlone{{material, {}, {}, 1.0f, 1.0f}}, state)
+                                         : frame.draw(mesh, vertex, Nothing{}, state);
+        if (!drawn) return tl::unexpected(drawn.error());
+    }
+    frame.run();
+    return textureOf(*target, 0).map([&](Texture&& depth) {
+        return SunShadow{std::move(depth), sunFromWorld, 2.0f * radius / static_cast<float>(side)};
+    });
+}
+
+namespace {
+
+// Strips of six faces below each other: the layout of import-environment's file. No other picture of surroundings has
+// sides of this ratio.
+bool isPrefiltered(int width, int height)
+{
+    return width % 6 == 0 && height > width / 6 && height < width / 3;
+}
+
+}  // namespace
+
+Expected<Environment> readEnvironment(const std::string& path, int threads)
+{
+    const Expected<ImageFile> picture = readImage(path);
+    if (!picture) return tl::unexpected(picture.error());
+    const auto inFile = [&path](const Error& error) { return fail(path + ": " + error.message); };
+    Expected<CubeMap> map = CubeMap::fromPicture(*picture, ColorSpace::srgb);
+    if (!map) return inFile(map.error());
+    const SphericalHarmonics irradiance = irradianceOf(*map);
+    const auto [width, height] =
+        std::visit([](const auto& image) { return std::pair(image.width, image.height); }, *picture);
+    if (isPrefiltered(width, height)) return Environment{std::move(*map), irradiance};
+    Workers workers(threads);
+    const auto run = [&workers](int tasks, const std::function<void(int)>& function) {
+        workers.run(tasks, [&function](int task, int) { function(task); });
+    };
+    const Expected<ImageFloat> levels = prefilteredEnvironment(*map, {.side = 128, .samples = 256}, run);
+    if (!levels) return inFile(levels.error());
+    Expected<CubeMap> mirrored = CubeMap::fromPicture(*levels, ColorSpace::linear);
+    if (!mirrored) return inFile(mirrored.error());
+    return Environment{std::move(*mirrored), irradiance};
 }
 
 LitScene::View LitScene::view(float aspect) const

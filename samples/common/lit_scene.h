@@ -1,19 +1,41 @@
-// A scene of a file (scene/gltf.h), lit: what `render --scene` draws. glTF's metallic-roughness materials under one sun
-// and a sky of two colours.
+// A scene of a file (scene/gltf.h), lit: what `render --scene` draws. glTF's metallic-roughness materials under one
+// sun, which casts shadows, and a sky: of two colours, or a picture.
 #pragma once
 
 #include "common/camera.h"
 #include "pipeline/frame.h"
 #include "scene/scene_file.h"
+#include "shading/environment.h"
 #include "shading/lights.h"
 
 namespace relief::samples {
 
-// The light that a scene stands in. Shadows of the sun and a picture of the surroundings belong here, too.
+// What the sun sees of a scene: the depth of what is nearest to it.
+struct SunShadow
+{
+    Texture depth;
+    glm::mat4 sunFromWorld;  // to its clip space
+    float texel;             // its width in the world
+};
+
+// A picture of what surrounds a scene, made ready (shading/environment.h).
+struct Environment
+{
+    CubeMap mirrored;               // by roughness
+    SphericalHarmonics irradiance;  // for matte surfaces
+};
+
+// From a file that `import-environment` wrote, or any picture that it takes; such a one is prefiltered here, with fewer
+// samples. `threads`: 0 for one per processor.
+Expected<Environment> readEnvironment(const std::string& path, int threads);
+
+// The light that a scene stands in. What it points to is not owned.
 struct Surroundings
 {
     DirectionalLight sun;
     SphericalHarmonics sky;
+    const CubeMap* mirrored = nullptr;  // none: the sky, which is as smooth as the roughest
+    const SunShadow* shadow = nullptr;  // none: the sun shines through everything
 };
 
 // A clear day, from the left of a camera that looks along -z.
@@ -40,6 +62,10 @@ public:
 
     // The same on a frame as it is, seen from anywhere.
     Expected<void> draw(Frame& frame, const View& from, const Surroundings& light) const;
+
+    // The shadows of a sun in this direction (towards it), on a map of `side` x `side` texels. What is blended casts
+    // none. An error where the memory cannot be had.
+    Expected<SunShadow> shadowOf(const float3& sun, int threads, int side = 1024) const;
 
     // The next record() looks from there, in the units above; without it from the file's camera, or, where it has none,
     // from the front, the left and above, with all of the scene in the picture.

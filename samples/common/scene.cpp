@@ -114,7 +114,20 @@ void Scene::drawFile(const Surroundings& light) const
     const SceneFile& file = inputs.usersScene->file();
     for (const std::string& line : file.notes) note(line);
     for (const auto& texture : file.textures) log.textures.insert(texture.get());
-    if (const auto drawn = inputs.usersScene->draw(frame, {clipFromWorld, cameraPosition}, light); !drawn) {
+    // The sun's shadows stay as long as the sun does.
+    const glm::vec3 sun = firstLane(light.sun.dir);
+    if (!log.sunShadow || log.sunOfShadow != sun) {
+        Expected<SunShadow> shadow = inputs.usersScene->shadowOf(light.sun.dir, frame.options().threads);
+        if (!shadow) {
+            log.problem = shadow.error().message;
+            return;
+        }
+        log.sunShadow = std::make_shared<SunShadow>(std::move(*shadow));
+        log.sunOfShadow = sun;
+    }
+    Surroundings shadowed = light;
+    shadowed.shadow = log.sunShadow.get();
+    if (const auto drawn = inputs.usersScene->draw(frame, {clipFromWorld, cameraPosition}, shadowed); !drawn) {
         log.problem = drawn.error().message;
     }
 }
