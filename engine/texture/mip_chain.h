@@ -74,12 +74,12 @@ public:
     template <class Channel>
     Channel* texel(int x, int y)
     {
-        return reinterpret_cast<Channel*>(lines.data()->bytes + offset(x, y) * texelBytes);
+        return reinterpret_cast<Channel*>(lines.data()->bytes) + offset(x, y) * (texelBytes / sizeof(Channel));
     }
     template <class Channel>
     const Channel* texel(int x, int y) const
     {
-        return reinterpret_cast<const Channel*>(lines.data()->bytes + offset(x, y) * texelBytes);
+        return reinterpret_cast<const Channel*>(lines.data()->bytes) + offset(x, y) * (texelBytes / sizeof(Channel));
     }
 
     // Copies the texels of each side to the frame on the opposite one. To be called once all texels are written.
