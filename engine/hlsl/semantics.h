@@ -37,6 +37,12 @@ enum class SystemValue
     coverage
 };
 
+// Whether it travels from the vertices to the pixels, and is interpolated on the way.
+constexpr bool isInterpolated(SystemValue value)
+{
+    return value == SystemValue::none || value == SystemValue::clipDistance;
+}
+
 // A value with a meaning. `Meaning` is the semantic's tag, `T` one of Float, float2, float3, float4, Int, int2 ...
 // int4, Mask. A field that nobody assigns is 0.
 template <class Meaning, class T>
@@ -47,8 +53,7 @@ struct Semantic : T
     static constexpr int kIndex = Meaning::kIndex;
     static constexpr SystemValue kSystemValue = Meaning::kSystemValue;
     static constexpr bool kIsPosition = kSystemValue == SystemValue::position;
-    static constexpr bool kIsInterpolated =
-        kSystemValue != SystemValue::position && kSystemValue != SystemValue::facing;
+    static constexpr bool kIsInterpolated = isInterpolated(kSystemValue);
     static constexpr Interpolation kInterpolation = Meaning::kInterpolation;
 
     Semantic() : T{} {}

@@ -20,7 +20,6 @@ struct Field
     Interpolation interpolation;
     SystemValue systemValue;
     bool isInteger;
-    bool isInterpolated;  // or what the pipeline gives
 };
 
 // The fields of a struct, in order. What a std::span checks of its iterators would be most of a draw's compile time.
@@ -48,7 +47,7 @@ template <class... F>
 constexpr std::array<Field, sizeof...(F)> listFields(FieldList<F...>)
 {
     return {Field{F::kName, F::kIndex, kComponents<typename F::Value>, F::kInterpolation, F::kSystemValue,
-                  kIsInteger<typename F::Value>, F::kIsInterpolated}...};
+                  kIsInteger<typename F::Value>}...};
 }
 
 }  // namespace detail

@@ -42,6 +42,7 @@ struct AnyState
     bool testsLate;  // and whether the tests need to know
     bool readsEdges, readsCentroids;
     const Outputs& outputs;
+    const Stencil& stencil;
 
     AnyState(const Draw& draw, const Tile& tile)
         : depthTest(tile.hasDepth() ? draw.state.depthTest : Compare::always),
@@ -53,7 +54,8 @@ struct AnyState
           testsLate(draw.programs->outputs.depth || (decides && usesStencil)),
           readsEdges(draw.programs->components > 0),
           readsCentroids(draw.geometry.hasCentroid),
-          outputs(draw.programs->outputs)
+          outputs(draw.programs->outputs),
+          stencil(draw.state.stencil)
     {
     }
     bool isUsual() const
@@ -70,6 +72,7 @@ struct UsualState
     static constexpr bool usesDepth = true, depthWrite = true, usesStencil = false, decides = false, testsLate = false,
                           readsEdges = interpolates, readsCentroids = false;
     static constexpr Outputs outputs = {1, false, false};
+    static constexpr Stencil stencil = {};
 };
 
 // One triangle's way through a run of blocks: its edges at the pixels' centres, and at their samples, where there are
@@ -80,12 +83,13 @@ struct TriangleInTile
     TriangleWeights weights;
     TriangleEdges edges;
     std::array<TriangleEdges, severalSamples ? kMaxSamples : 0> sampleEdges;
-    int lane;
+    int lane = -1;
+    bool isFront;
 
-    TriangleInTile(const TriangleBatch& batch, int triangle) { set(batch, triangle); }
-    void set(const TriangleBatch& batch, int triangle)
+    void set(const Draw& draw, const TriangleBatch& batch, int triangle)
     {
         lane = triangle;
+        isFront = relief::isFront(draw.geometry, *batch.triangle[lane]);
         weights.set(batch, triangle);
         edges.set(batch, triangle);
         if constexpr (severalSamples) {
@@ -121,14 +125,13 @@ DepthBounds depthsOf(const TriangleWeights& triangle)
 // The stencil test, the depth test, and what both write, of one sample of a block's pixels. Returns the lanes that
 // pass.
 template <class State>
-[[gnu::noinline]] unsigned testStencilAndDepth(const State& state, const Stencil& stencil, bool isFront, unsigned lanes,
-                                               Float depth, const DepthBounds& between, int block, int sample,
-                                               Tile& tile)
+[[gnu::noinline]] unsigned testStencilAndDepth(const State& state, bool isFront, unsigned lanes, Float depth,
+                                               const DepthBounds& between, int block, int sample, Tile& tile)
 {
-    const StencilFace& face = isFront ? stencil.front : stencil.back;
+    const StencilFace& face = isFront ? state.stencil.front : state.stencil.back;
     std::int32_t* const words = state.usesStencil ? tile.stencil(sample) : nullptr;
     const unsigned tested = lanes;
-    if (words != nullptr) lanes &= testStencil(stencil, face, Int::load(words)).bits();
+    if (words != nullptr) lanes &= testStencil(state.stencil, face, Int::load(words)).bits();
     const unsigned passed = lanes;
     if (state.usesDepth) {
         float* const stored = tile.depth(sample);
@@ -137,7 +140,7 @@ template <class State>
         writeDepth(state, between, false, lanes, depth, old, stored, tile.bounds(block));
     }
     if (words != nullptr) {
-        stencilAfter(stencil, face, Int::load(words), Mask::fromBits(tested), Mask::fromBits(passed),
+        stencilAfter(state.stencil, face, Int::load(words), Mask::fromBits(tested), Mask::fromBits(passed),
                      Mask::fromBits(lanes))
             .store(words);
     }
@@ -166,9 +169,9 @@ void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsign
 // Before the program runs: which pixels pass the depth test. `inTile`: bounds of all blocks together. Their depth is
 // written here, too, unless the program may throw them away afterwards. Returns whether there is anything to shade.
 template <class State>
-bool testEarly(const State& state, const Stencil& stencil, bool isFront, const TriangleInTile<false>& triangle,
-               const CoveredBlock& covered, const SampleCoverage* /* the one sample's is the block's */,
-               const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
+bool testEarly(const State& state, const TriangleInTile<false>& triangle, const CoveredBlock& covered,
+               const SampleCoverage* /* the one sample's is the block's */, const DepthBounds& inTile,
+               ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
@@ -182,7 +185,7 @@ bool testEarly(const State& state, const Stencil& stencil, bool isFront, const T
         if (state.testsLate) {
             // and all pixels are shaded
         } else if (state.usesStencil) {
-            live = testStencilAndDepth(state, stencil, isFront, live, weights.depth(edge[1], edge[2]),
+            live = testStencilAndDepth(state, triangle.isFront, live, weights.depth(edge[1], edge[2]),
                                        depthsOf(weights), index, index, tile);
             if (leavesOut::hidden && live == 0) return false;
         } else if (state.usesDepth) {
@@ -203,9 +206,8 @@ bool testEarly(const State& state, const Stencil& stencil, bool isFront, const T
 
 // The same where a pixel has several samples, each with a depth of its own.
 template <class State>
-bool testEarly(const State& state, const Stencil& stencil, bool isFront, const TriangleInTile<true>& triangle,
-               const CoveredBlock& covered, const SampleCoverage* samples, const DepthBounds& inTile,
-               ShadedBlock& block, Tile& tile, Counts& counts)
+bool testEarly(const State& state, const TriangleInTile<true>& triangle, const CoveredBlock& covered,
+               const SampleCoverage* samples, const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
@@ -231,7 +233,7 @@ bool testEarly(const State& state, const Stencil& stencil, bool isFront, const T
         if (state.testsLate) {
             // and all samples are shaded
         } else if (!state.decides) {
-            lanes = testStencilAndDepth(state, stencil, isFront, lanes, depth, depthsOf(weights), index, sample, tile);
+            lanes = testStencilAndDepth(state, triangle.isFront, lanes, depth, depthsOf(weights), index, sample, tile);
         } else if (state.usesDepth) {
             lanes &= compareBy(state.depthTest, depth, Float::load(tile.depth(sample))).bits();
         }
@@ -259,8 +261,8 @@ unsigned keptLanes(const Draw& draw, const ShadedBlock& block, unsigned lanes, i
 
 // After the program: the tests that waited for it, or the depth of what is left. Returns the lanes that are drawn.
 template <class State>
-unsigned testLate(const State& state, const Draw& draw, bool isFront, const TriangleWeights& weights,
-                  const TriangleEdges& edges, const ShadedBlock& block, unsigned lanes, int sample, Tile& tile)
+unsigned testLate(const State& state, bool isFront, const TriangleWeights& weights, const TriangleEdges& edges,
+                  const ShadedBlock& block, unsigned lanes, int sample, Tile& tile)
 {
     if (!state.usesDepth && !state.testsLate) return lanes;
     Float edge[3];
@@ -271,29 +273,27 @@ unsigned testLate(const State& state, const Draw& draw, bool isFront, const Tria
         depth = saturate(Float::load(block.more->depth));
         between = {0.0f, 1.0f};
     }
-    if (state.testsLate)
-        return testStencilAndDepth(state, draw.state.stencil, isFront, lanes, depth, between, block.index, sample,
-                                   tile);
+    if (state.testsLate) return testStencilAndDepth(state, isFront, lanes, depth, between, block.index, sample, tile);
     float* const stored = tile.depth(sample);
     writeDepth(state, between, false, lanes, depth, Float::load(stored), stored, tile.bounds(block.index));
     return lanes;
 }
 template <class State>
-void testLate(const State& state, const Draw& draw, bool isFront, const TriangleInTile<false>& triangle,
-              ShadedBlock& block, Tile& tile)
+void testLate(const State& state, const Draw& draw, const TriangleInTile<false>& triangle, ShadedBlock& block,
+              Tile& tile)
 {
     const unsigned lanes = keptLanes(draw, block, block.live, 0, 1);
-    block.live = testLate(state, draw, isFront, triangle.weights, triangle.edges, block, lanes, block.index, tile);
+    block.live = testLate(state, triangle.isFront, triangle.weights, triangle.edges, block, lanes, block.index, tile);
 }
 template <class State>
-void testLate(const State& state, const Draw& draw, bool isFront, const TriangleInTile<true>& triangle,
-              ShadedBlock& block, Tile& tile)
+void testLate(const State& state, const Draw& draw, const TriangleInTile<true>& triangle, ShadedBlock& block,
+              Tile& tile)
 {
     block.live = 0;
     for (int s = 0; s < tile.samples().count; ++s) {
         const auto number = static_cast<std::size_t>(s);
         const unsigned kept = keptLanes(draw, block, block.liveSamples[number], s, tile.samples().count);
-        const unsigned lanes = testLate(state, draw, isFront, triangle.weights, triangle.sampleEdges[number], block,
+        const unsigned lanes = testLate(state, triangle.isFront, triangle.weights, triangle.sampleEdges[number], block,
                                         kept, tile.sampleOf(block.index, s), tile);
         block.liveSamples[number] = static_cast<std::uint16_t>(lanes);
         block.live |= lanes;
@@ -352,12 +352,12 @@ template <Format format, bool severalSamples>
     return allInvalid;
 }
 
-TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Triangle& triangle)
+TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Triangle& triangle, bool isFront)
 {
     return {
         {componentsOf(draw.geometry, chunk, triangle.vertex[0]), componentsOf(draw.geometry, chunk, triangle.vertex[1]),
          componentsOf(draw.geometry, chunk, triangle.vertex[2])},
-        isFront(draw.geometry, triangle)};
+        isFront};
 }
 
 template <class State>
@@ -378,27 +378,22 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
         for (std::size_t i = 0; i < groupSize; ++i) group[i].more = &more[i];
     }
     std::array<TriangleCorners, kLanes> corners;
-    TriangleInTile<severalSamples> triangle(batch, blocks.front().triangle);
-    corners[static_cast<std::size_t>(triangle.lane)] = cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
+    TriangleInTile<severalSamples> triangle;
     for (auto next = blocks.begin(); next != blocks.end();) {
         ShadedBlock* free = group.data();
         for (; next != blocks.end() && free != group.data() + groupSize; ++next) {
             if (next->triangle != triangle.lane) {
-                triangle.set(batch, next->triangle);
-                corners[static_cast<std::size_t>(triangle.lane)] =
-                    cornersOf(draw, chunk, *batch.triangle[triangle.lane]);
+                triangle.set(draw, batch, next->triangle);
+                corners[next->triangle] = cornersOf(draw, chunk, *batch.triangle[triangle.lane], triangle.isFront);
             }
             const SampleCoverage* of = severalSamples ? samples + (next - blocks.begin()) : nullptr;
-            if (testEarly(state, draw.state.stencil, corners[static_cast<std::size_t>(triangle.lane)].isFront, triangle,
-                          *next, of, inTile, *free, tile, counts))
-                ++free;
+            if (testEarly(state, triangle, *next, of, inTile, *free, tile, counts)) ++free;
         }
         const std::span<ShadedBlock> shaded(group.data(), free);
         counts.blocks += static_cast<unsigned>(shaded.size());
         if (!runsProgram || shaded.empty()) continue;
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), shaded, batch, corners.data());
-        if (state.decides)
-            testLate(state, draw, corners[static_cast<std::size_t>(triangle.lane)].isFront, triangle, group[0], tile);
+        if (state.decides) testLate(state, draw, triangle, group[0], tile);
         const auto merge = [&](int target) {
             withFormat(tile.colorFormat(target), [&]<Format format>() {
                 counts.invalid += mergeBlocks<format, severalSamples>(shaded, target, draw.state.blend, tile);

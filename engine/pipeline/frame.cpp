@@ -247,9 +247,10 @@ void Frame::Storage::prepare()
         draw.geometry.bounds = intersect(draw.geometry.bounds, {0, 0, target.width(), target.height()});
         draw.geometry.sampleReach = target.samples().reach;
     }
+    const TargetMemory memory(target);
     for (Worker& worker : perWorker) {
         worker.statistics = {};
-        if (worker.tile && !worker.tile->isFor(TargetMemory(target))) worker.tile.reset();
+        if (worker.tile && !worker.tile->isFor(memory)) worker.tile.reset();
     }
 }
 

@@ -91,7 +91,7 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
             draw.geometry.clipDistances[static_cast<std::size_t>(draw.geometry.clipDistanceCount++)] =
                 static_cast<std::uint8_t>(draw.interpolations.size() + static_cast<std::size_t>(c));
         }
-        if (field.isInterpolated)
+        if (isInterpolated(field.systemValue))
             draw.interpolations.insert(draw.interpolations.end(), static_cast<std::size_t>(field.components),
                                        field.interpolation);
     }

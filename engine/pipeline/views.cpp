@@ -55,7 +55,7 @@ void forEachInterpolator(const Draw& draw, const Function& function)
 {
     int first = 0;
     for (const Field& field : draw.programs->interpolators) {
-        if (!field.isInterpolated) continue;
+        if (!isInterpolated(field.systemValue)) continue;
         if (function(field, Slots{first, field.components, field.interpolation, field.isInteger})) return;
         first += field.components;
     }

@@ -169,14 +169,21 @@ void gather(std::vector<Vector>& vectors, const std::vector<std::uint32_t>& indi
     vectors = std::move(gathered);
 }
 
-// Every corner a vertex of its own, with the normal of its triangle: what a file without normals asks for.
-void makeFlat(Attributes& all, std::vector<std::uint32_t>& indices)
+void gatherAll(Attributes& all, const std::vector<std::uint32_t>& indices)
 {
     gather(all.positions, indices);
+    gather(all.normals, indices);
+    gather(all.tangents, indices);
     gather(all.colors, indices);
     gather(all.uvs[0], indices);
     gather(all.uvs[1], indices);
+}
+
+// Every corner a vertex of its own, with the normal of its triangle: what a file without normals asks for.
+void makeFlat(Attributes& all, std::vector<std::uint32_t>& indices)
+{
     all.tangents.clear();
+    gatherAll(all, indices);
     for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<std::uint32_t>(i);
     Mesh mesh;
     mesh.positions = all.positions;
@@ -198,12 +205,7 @@ void keepUsed(Attributes& all, std::vector<std::uint32_t>& indices)
     }
     if (used.size() == newIndex.size()) return;
     for (std::uint32_t& index : indices) index = newIndex[index];
-    gather(all.positions, used);
-    gather(all.normals, used);
-    gather(all.tangents, used);
-    gather(all.colors, used);
-    gather(all.uvs[0], used);
-    gather(all.uvs[1], used);
+    gatherAll(all, used);
 }
 
 // Of unit length; smooth where the file has one of length zero.
@@ -326,8 +328,7 @@ Expected<void> Reader::checkNodes() const
         for (const int child : file.nodes[i].children) {
             const std::string field = element("nodes", i) + ".children";
             if (child < 0 || static_cast<std::size_t>(child) >= file.nodes.size()) {
-                return fail(field + ": there is no node " + std::to_string(child) + " among " +
-                            std::to_string(file.nodes.size()) + "; export the file again");
+                return failMissing(field, "node", child, file.nodes.size());
             }
             if (hasParent[static_cast<std::size_t>(child)]) {
                 return fail(field + ": node " + std::to_string(child) + " has two parents; export the file again");
@@ -354,14 +355,12 @@ Expected<std::vector<int>> Reader::roots() const
     }
     const std::size_t chosen = file.defaultScene < 0 ? 0 : static_cast<std::size_t>(file.defaultScene);
     if (chosen >= file.scenes.size()) {
-        return fail("scene: there is no scene " + std::to_string(chosen) + " among " +
-                    std::to_string(file.scenes.size()) + "; export the file again");
+        return failMissing("scene", "scene", file.defaultScene, file.scenes.size());
     }
     for (const int root : file.scenes[chosen].nodes) {
         const std::string field = element("scenes", chosen) + ".nodes";
         if (root < 0 || static_cast<std::size_t>(root) >= file.nodes.size()) {
-            return fail(field + ": there is no node " + std::to_string(root) + " among " +
-                        std::to_string(file.nodes.size()) + "; export the file again");
+            return failMissing(field, "node", root, file.nodes.size());
         }
         if (isChild[static_cast<std::size_t>(root)]) {
             return fail(field + ": node " + std::to_string(root) +
@@ -412,8 +411,7 @@ Expected<void> Reader::addMesh(const tinygltf::Node& node, const std::string& fi
     if (node.mesh < 0) return {};
     const auto mesh = static_cast<std::size_t>(node.mesh);
     if (mesh >= file.meshes.size()) {
-        return fail(field + ".mesh: there is no mesh " + std::to_string(mesh) + " among " +
-                    std::to_string(file.meshes.size()) + "; export the file again");
+        return failMissing(field + ".mesh", "mesh", node.mesh, file.meshes.size());
     }
     const bool mirrored = glm::determinant(glm::dmat3(worldFromObject)) < 0.0;
     for (std::size_t primitive = 0; primitive < file.meshes[mesh].primitives.size(); ++primitive) {
@@ -612,8 +610,7 @@ Expected<std::size_t> Reader::materialOf(int index, const std::string& user)
 {
     if (const auto known = materials.find(index); known != materials.end()) return known->second;
     if (index >= 0 && static_cast<std::size_t>(index) >= file.materials.size()) {
-        return fail(user + ": there is no material " + std::to_string(index) + " among " +
-                    std::to_string(file.materials.size()) + "; export the file again");
+        return failMissing(user, "material", index, file.materials.size());
     }
     SceneMaterial made;
     if (index >= 0) {
@@ -688,8 +685,7 @@ Expected<MaterialTexture> Reader::textureOf(int index, int uvSet, const tinygltf
     MaterialTexture made;
     if (index < 0) return made;
     if (static_cast<std::size_t>(index) >= file.textures.size()) {
-        return fail(user + ".index: there is no texture " + std::to_string(index) + " among " +
-                    std::to_string(file.textures.size()) + "; export the file again");
+        return failMissing(user + ".index", "texture", index, file.textures.size());
     }
     const tinygltf::Texture& its = file.textures[static_cast<std::size_t>(index)];
     const std::string field = element("textures", static_cast<std::size_t>(index));
@@ -704,8 +700,7 @@ Expected<MaterialTexture> Reader::textureOf(int index, int uvSet, const tinygltf
     }
     if (its.sampler >= 0) {
         if (static_cast<std::size_t>(its.sampler) >= file.samplers.size()) {
-            return fail(field + ".sampler: there is no sampler " + std::to_string(its.sampler) + " among " +
-                        std::to_string(file.samplers.size()) + "; export the file again");
+            return failMissing(field + ".sampler", "sampler", its.sampler, file.samplers.size());
         }
         const tinygltf::Sampler& sampler = file.samplers[static_cast<std::size_t>(its.sampler)];
         made.sampler.u = addressOf(sampler.wrapS);
@@ -724,8 +719,7 @@ Expected<std::shared_ptr<const Texture>> Reader::imageOf(int index, ColorSpace m
     const std::pair key(index, meaning);
     if (const auto known = textures.find(key); known != textures.end()) return known->second;
     if (static_cast<std::size_t>(index) >= file.images.size()) {
-        return fail(user + ": there is no image " + std::to_string(index) + " among " +
-                    std::to_string(file.images.size()) + "; export the file again");
+        return failMissing(user, "image", index, file.images.size());
     }
     const std::string field = element("images", static_cast<std::size_t>(index));
     Expected<ImageFile> picture = pictureOf(file.images[static_cast<std::size_t>(index)], field);

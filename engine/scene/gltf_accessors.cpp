@@ -23,13 +23,6 @@ const T* at(const std::vector<T>& all, int index)
     return index >= 0 && static_cast<std::size_t>(index) < all.size() ? &all[static_cast<std::size_t>(index)] : nullptr;
 }
 
-// "meshes[0].primitives[0].indices: there is no accessor 7 among 4".
-tl::unexpected<Error> failMissing(const std::string& user, const char* what, int index, std::size_t among)
-{
-    return fail(user + ": there is no " + what + " " + std::to_string(index) + " among " + std::to_string(among) +
-                "; export the file again");
-}
-
 std::size_t sizeOf(int componentType)
 {
     switch (componentType) {
@@ -114,6 +107,12 @@ struct GltfAccessors::Layout
     std::optional<Elements> places, values;
     std::size_t placeSize = 0;
 };
+
+tl::unexpected<Error> failMissing(const std::string& user, const char* what, int index, std::size_t among)
+{
+    return fail(user + ": there is no " + what + " " + std::to_string(index) + " among " + std::to_string(among) +
+                "; export the file again");
+}
 
 Expected<std::size_t> GltfAccessors::count(int index, const std::string& user) const
 {

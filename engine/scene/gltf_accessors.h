@@ -14,6 +14,9 @@ class Model;
 
 namespace relief {
 
+// "meshes[0].primitives[0].indices: there is no accessor 7 among 4; export the file again".
+tl::unexpected<Error> failMissing(const std::string& user, const char* what, int index, std::size_t among);
+
 // Of an accessor. `user` is the field that names it, for messages: "meshes[0].primitives[1].attributes.NORMAL".
 // Errors do not have the file's name.
 class GltfAccessors

@@ -164,6 +164,11 @@ Expected<ImageFloat> prefilteredEnvironment(const CubeMap& radiance, const Prefi
     return picture;
 }
 
+bool isPrefiltered(const CubeMap& map)
+{
+    return map.levelCount() < mipLevelCount(map.side(), map.side());
+}
+
 SphericalHarmonics irradianceOf(const CubeMap& radiance)
 {
     const DefaultFloatingPoint environment;

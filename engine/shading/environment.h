@@ -55,6 +55,9 @@ void runInTurn(int tasks, const std::function<void(int task)>& function);
 Expected<ImageFloat> prefilteredEnvironment(const CubeMap& radiance, const PrefilterSettings& settings,
                                             const RunTasks& run = runInTurn);
 
+// Whether a cube map is such a chain: its levels end where these do, and every other cube map's go down to one texel.
+bool isPrefiltered(const CubeMap& map);
+
 // The light that arrives at a matte surface, for ShadeSH9: irradiance / pi, so that equal radiance everywhere gives
 // itself. From the texels of level 0, each weighted by its solid angle. Nine coefficients hold it to about 1 % for
 // natural light (Ramamoorthi and Hanrahan 2001); a single bright light is too broad, and rings.

@@ -1,6 +1,6 @@
 #include "texture/comparison_sampler.h"
 
-#include "texture/filter.h"
+#include "texture/sampler_steps.h"
 
 namespace relief::inline RELIEF_WIDTH {
 
@@ -33,12 +33,10 @@ Square squareAt(const Place<AnyModes>& place, const MipLevel& level, const Pairs
 }
 
 template <class Fetch>
-Float compareIn(const SamplerComparisonState& s, const Texture& texture, const float2& uv, Float reference)
+Float compareIn(const SamplerComparisonState& s, const sampler2D& plain, const float2& uv, Float reference)
 {
-    sampler2D plain = {&texture, Filter::bilinear, s.u, s.v};
-    plain.borderColor = glm::vec4(s.border);
-    const Place<AnyModes> place(plain, texture, uv.x, uv.y);
-    const MipLevel& level = texture.level(0);
+    const Place<AnyModes> place(plain, *plain.texture, uv.x, uv.y);
+    const MipLevel& level = plain.texture->level(0);
     const Pairs at = pairsOn(place, level);
     const Square texels = squareAt<Fetch>(place, level, at);
     const auto passes = [&](Float texel) {
@@ -54,22 +52,13 @@ Float compareIn(const SamplerComparisonState& s, const Texture& texture, const f
 
 Float SampleCmp(const SamplerComparisonState& s, const float2& uv, Float reference)
 {
-    const auto count = static_cast<std::uint64_t>(countBits(shading.activeLanes & kAllLanes));
-    shading.fetches.bilinear += count;
-    shading.fetches.noDerivatives += count;
-    shading.fetches.magnified += count;
     const Texture& texture = s.texture != nullptr ? *s.texture : Texture::white();
-    switch (texture.format()) {
-        case TexelFormat::rgba8:
-            return compareIn<FetchRgba8>(s, texture, uv, reference);
-        case TexelFormat::rgba16:
-            return compareIn<FetchRgba16>(s, texture, uv, reference);
-        case TexelFormat::rgba32Float:
-            return compareIn<FetchRgba32Float>(s, texture, uv, reference);
-        case TexelFormat::r32Float:
-            break;
-    }
-    return compareIn<FetchR32Float>(s, texture, uv, reference);
+    sampler2D plain = {&texture, Filter::bilinear, s.u, s.v};
+    plain.borderColor = glm::vec4(s.border);
+    countSample(plain);
+    countOneLevel(plain, kAllLanes, kAllLanes);
+    countNoDerivatives();
+    return withFetch(texture.format(), [&]<class Fetch>() { return compareIn<Fetch>(s, plain, uv, reference); });
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -109,16 +109,7 @@ float4 sampleAtLevel(const samplerCUBE& s, const Meeting& at, Float lod)
     if ((shading.activeLanes & kWatched) != 0) noteLevels(s, fixed);
 
     const CubePlace place = {s, texture, at.face.face(), at.s * 0.5f + 0.5f, at.t * 0.5f + 0.5f};
-    switch (texture.format()) {
-        case TexelFormat::rgba8:
-            return sampleIn<FetchRgba8>(place, fixed);
-        case TexelFormat::rgba16:
-            return sampleIn<FetchRgba16>(place, fixed);
-        case TexelFormat::rgba32Float:
-        case TexelFormat::r32Float:  // no cube map has it: pictures have four channels
-            break;
-    }
-    return sampleIn<FetchRgba32Float>(place, fixed);
+    return withFetch(texture.format(), [&]<class Fetch>() { return sampleIn<Fetch>(place, fixed); });
 }
 
 // By the longer of the two changes, in texels of level 0.

@@ -293,6 +293,23 @@ private:
     static float4 red(Float value) { return {value, Float(0.0f), Float(0.0f), Float(1.0f)}; }
 };
 
+// Calls function.operator()<Fetch>() with the type for a format.
+template <class Function>
+[[gnu::always_inline]] inline auto withFetch(TexelFormat format, const Function& function)
+{
+    switch (format) {
+        case TexelFormat::rgba8:
+            return function.template operator()<FetchRgba8>();
+        case TexelFormat::rgba16:
+            return function.template operator()<FetchRgba16>();
+        case TexelFormat::r32Float:
+            return function.template operator()<FetchR32Float>();
+        case TexelFormat::rgba32Float:
+            break;
+    }
+    return function.template operator()<FetchRgba32Float>();
+}
+
 // The same for levels whose alpha is 1 everywhere: a quarter of the filter is left out.
 template <class Fetch>
 struct Opaque : Fetch

@@ -46,17 +46,7 @@ template <class Function>
             return function.template operator()<Fetch, Repeated>();
         return function.template operator()<Fetch, AnyModes>();
     };
-    switch (texture.format()) {
-        case TexelFormat::rgba8:
-            return forModes.template operator()<FetchRgba8>();
-        case TexelFormat::rgba16:
-            return forModes.template operator()<FetchRgba16>();
-        case TexelFormat::r32Float:
-            return forModes.template operator()<FetchR32Float>();
-        case TexelFormat::rgba32Float:
-            break;
-    }
-    return forModes.template operator()<FetchRgba32Float>();
+    withFetch(texture.format(), forModes);
 }
 
 inline void sampleFinest(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v)

@@ -53,8 +53,7 @@ Expected<CubeMap> radianceOf(const std::string& file)
     if (!picture) return tl::unexpected(picture.error());
     Expected<CubeMap> map = CubeMap::fromPicture(*picture, ColorSpace::srgb);
     if (!map) return fail(file + ": " + map.error().message);
-    if (map->levelCount() < mipLevelCount(map->side(), map->side()))
-        return fail(file + ": is prefiltered already; give the picture that it was made of");
+    if (isPrefiltered(*map)) return fail(file + ": is prefiltered already; give the picture that it was made of");
     return map;
 }
 

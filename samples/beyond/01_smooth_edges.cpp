@@ -35,7 +35,7 @@ struct MyVertexProgram : Uniforms {
 };
 
 template <bool COVERAGE>
-struct MyFragmentProgram : ShadowMaterial {
+struct MyFragmentProgram : StoneMaterial {
     Float smoothness = number("smoothness", 0.75f, {0, 1}, "0 matte, 1 polished");
 
     float4 operator()(Interpolators i) const {

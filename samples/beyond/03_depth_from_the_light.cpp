@@ -35,7 +35,7 @@ struct MyVertexProgram : Uniforms {
     }
 };
 
-struct MyFragmentProgram : ShadowMaterial {
+struct MyFragmentProgram : StoneMaterial {
     float4 operator()(Interpolators i) const {
         return float4(tint.rgb() * (light.color * saturate(dot(normalize(i.normal), light.dir)) + ambient), 1);
     }
@@ -47,7 +47,7 @@ struct ShowDepth {
     float4 operator()(ScreenInterpolators i) const { return float4(float3(tex2D(depth, i.uv).x), 1); }
 };
 
-struct Lamp : ShadowMaterial {
+struct Lamp : StoneMaterial {
     Float mapSize = number("mapSize", 256.0f, {16, 2048}, "side of the shadow map, texels");
 };
 

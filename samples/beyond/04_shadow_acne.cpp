@@ -46,7 +46,7 @@ struct NoColor {
 };
 
 template <bool BUMPS>
-struct MyFragmentProgram : ShadowMaterial {
+struct MyFragmentProgram : StoneMaterial {
     float4x4 lightFromWorld = {};
     SamplerComparisonState shadowMap = {};
 
@@ -69,7 +69,7 @@ struct MyFragmentProgram : ShadowMaterial {
     }
 };
 
-struct Lamp : ShadowMaterial {
+struct Lamp : StoneMaterial {
     Float mapSize = number("mapSize", 256.0f, {16, 2048}, "side of the shadow map, texels");
 };
 

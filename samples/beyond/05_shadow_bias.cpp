@@ -46,7 +46,7 @@ struct NoColor {
 };
 
 template <bool BUMPS>
-struct MyFragmentProgram : ShadowMaterial {
+struct MyFragmentProgram : StoneMaterial {
     float4x4 lightFromWorld = {};
     SamplerComparisonState shadowMap = {};
     Float offset = 0.0f;  // along the surface's own normal, not the bump's  // new
@@ -71,7 +71,7 @@ struct MyFragmentProgram : ShadowMaterial {
     }
 };
 
-struct Lamp : ShadowMaterial {
+struct Lamp : StoneMaterial {
     Float mapSize = number("mapSize", 256.0f, {16, 2048}, "side of the shadow map, texels");
     Float constantBias = number("constantBias", 60000.0f, {0, 1e6f}, "steps of a float that depths are moved away");
     Float slopeBias = number("slopeBias", 1.5f, {0, 16}, "of what depth changes by from a texel to the next");  // new

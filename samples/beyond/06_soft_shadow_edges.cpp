@@ -47,7 +47,7 @@ struct NoColor {
 
 // TAPS x TAPS comparisons of 2x2 texels each; 0: one texel, and yes or no.
 template <int TAPS>  // new
-struct MyFragmentProgram : ShadowMaterial {
+struct MyFragmentProgram : StoneMaterial {
     float4x4 lightFromWorld = {};
     SamplerComparisonState shadowMap = {};
     sampler2D depths = {};  // new
@@ -81,7 +81,7 @@ struct MyFragmentProgram : ShadowMaterial {
     }
 };
 
-struct Lamp : ShadowMaterial {
+struct Lamp : StoneMaterial {
     Float mapSize = number("mapSize", 128.0f, {16, 2048}, "side of the shadow map, texels");  // new
     Float slopeBias = number("slopeBias", 1.5f, {0, 16}, "of what depth changes by from a texel to the next");
     Float normalOffset = number("normalOffset", 0.04f, {0, 0.5f}, "how far a point is moved off its surface");  // new

@@ -40,7 +40,7 @@ struct MyVertexProgram : Uniforms {
     }
 };
 
-struct MyFragmentProgram : ShadowMaterial {
+struct MyFragmentProgram : StoneMaterial {
     Float reflectivity = number("reflectivity", 0.9f, {0, 1}, "of the floor, at a grazing angle");
     Float mirrored = 1.0f;  // -1: what stands in the mirror has the light from below
     bool isFloor = false;

@@ -261,7 +261,13 @@ constexpr float kSineOfHalfView = 0.342f;  // sin 20 degrees, of Camera's usual 
 Surroundings usualSurroundings()
 {
     return {.sun = {.color = float3(0.9f, 0.86f, 0.78f), .dir = normalize(float3(0.75f, 1.0f, 0.55f))},
-            .sky = gradientSurroundings({0.40f, 0.45f, 0.52f}, {0.26f, 0.27f, 0.29f}, {0.13f, 0.12f, 0.10f})};
+            .sky = clearSky(1.0f)};
+}
+
+SphericalHarmonics clearSky(float strength)
+{
+    const glm::vec3 above(0.40f, 0.45f, 0.52f), around(0.26f, 0.27f, 0.29f), below(0.13f, 0.12f, 0.10f);
+    return gradientSurroundings(above * strength, around * strength, below * strength);
 }
 
 LitScene::LitScene(SceneFile itsScene) : scene(std::move(itsScene))
@@ -296,20 +302,9 @@ Expected<SunShadow> LitScene::shadowOf(const float3& sun, int threads, int side)
     }
     frame.run();
     return textureOf(*target, 0).map([&](Texture&& depth) {
-        return SunShadow{std::move(depth), sunFromWorld, 2.0f * radius / static_cast<float>(side)};
+        return SunShadow{std::move(depth), firstLane(sun), sunFromWorld, 2.0f * radius / static_cast<float>(side)};
     });
 }
-
-namespace {
-
-// Strips of six faces below each other: the layout of import-environment's file. No other picture of surroundings has
-// sides of this ratio.
-bool isPrefiltered(int width, int height)
-{
-    return width % 6 == 0 && height > width / 6 && height < width / 3;
-}
-
-}  // namespace
 
 Expected<Environment> readEnvironment(const std::string& path, int threads)
 {
@@ -319,9 +314,7 @@ Expected<Environment> readEnvironment(const std::string& path, int threads)
     Expected<CubeMap> map = CubeMap::fromPicture(*picture, ColorSpace::srgb);
     if (!map) return inFile(map.error());
     const SphericalHarmonics irradiance = irradianceOf(*map);
-    const auto [width, height] =
-        std::visit([](const auto& image) { return std::pair(image.width, image.height); }, *picture);
-    if (isPrefiltered(width, height)) return Environment{std::move(*map), irradiance};
+    if (isPrefiltered(*map)) return Environment{std::move(*map), irradiance};
     Workers workers(threads);
     const auto run = [&workers](int tasks, const std::function<void(int)>& function) {
         workers.run(tasks, [&function](int task, int) { function(task); });

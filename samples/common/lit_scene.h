@@ -14,6 +14,7 @@ namespace relief::samples {
 struct SunShadow
 {
     Texture depth;
+    glm::vec3 sun;           // towards it
     glm::mat4 sunFromWorld;  // to its clip space
     float texel;             // its width in the world
 };
@@ -38,8 +39,9 @@ struct Surroundings
     const SunShadow* shadow = nullptr;  // none: the sun shines through everything
 };
 
-// A clear day, from the left of a camera that looks along -z.
+// A clear day, from the left of a camera that looks along -z; and its sky alone.
 Surroundings usualSurroundings();
+SphericalHarmonics clearSky(float strength);
 
 class LitScene
 {

@@ -96,8 +96,8 @@ struct ParallaxMaterial : Uniforms
     UnityLight light = sun(40.0f, -60.0f);
 };
 
-// And what its shadows fall on.
-struct ShadowMaterial : Uniforms
+// Plain stone with bumps, and what its shadows fall on.
+struct StoneMaterial : Uniforms
 {
     float4 tint = rgba("tint", {0.8f, 0.78f, 0.74f, 1.0f}, "the surfaces' colour");
     sampler2D normalMap = normals("marble-heights.png");

@@ -115,15 +115,13 @@ void Scene::drawFile(const Surroundings& light) const
     for (const std::string& line : file.notes) note(line);
     for (const auto& texture : file.textures) log.textures.insert(texture.get());
     // The sun's shadows stay as long as the sun does.
-    const glm::vec3 sun = firstLane(light.sun.dir);
-    if (!log.sunShadow || log.sunOfShadow != sun) {
+    if (!log.sunShadow || log.sunShadow->sun != firstLane(light.sun.dir)) {
         Expected<SunShadow> shadow = inputs.usersScene->shadowOf(light.sun.dir, frame.options().threads);
         if (!shadow) {
             log.problem = shadow.error().message;
             return;
         }
         log.sunShadow = std::make_shared<SunShadow>(std::move(*shadow));
-        log.sunOfShadow = sun;
     }
     Surroundings shadowed = light;
     shadowed.shadow = log.sunShadow.get();

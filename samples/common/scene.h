@@ -64,8 +64,7 @@ struct SceneLog
     std::deque<Mesh> kept;            // meshes that the scene made
     std::deque<Framebuffer> targets;  // of passes before the picture, and what of them is a texture
     std::deque<Texture> rendered;
-    std::shared_ptr<const SunShadow> sunShadow;  // of the user's scene, and the sun that it is of
-    glm::vec3 sunOfShadow{0.0f};
+    std::shared_ptr<const SunShadow> sunShadow;  // of the user's scene
 
     // Meshes that came without uv or tangents, with them; made when a program first reads any.
     std::map<const Mesh*, std::unique_ptr<Mesh>> uvs, tangents;

@@ -25,11 +25,8 @@ Stage scene_of_file()
             .camera = {.position = {2.3f, 1.9f, 4.2f}},
             .draw = [](const Scene& s) {
                 const Day day = s.uniforms();
-                const float sky = day.skyStrength[0];
-                s.drawFile({.sun = {day.light.color * day.sunStrength, day.light.dir},
-                            .sky = gradientSurroundings(glm::vec3(0.40f, 0.45f, 0.52f) * sky,
-                                                        glm::vec3(0.26f, 0.27f, 0.29f) * sky,
-                                                        glm::vec3(0.13f, 0.12f, 0.10f) * sky)});
+                s.drawFile(
+                    {.sun = {day.light.color * day.sunStrength, day.light.dir}, .sky = clearSky(day.skyStrength[0])});
             }};
 }
 
