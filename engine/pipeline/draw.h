@@ -25,6 +25,7 @@ namespace relief::inline RELIEF_WIDTH {
 
 struct Draw
 {
+    std::string mesh;  // its name
     const Programs* programs;
     ErasedProgram vertexProgram, fragmentProgram;  // copies
     RenderState state;

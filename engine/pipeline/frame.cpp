@@ -195,8 +195,14 @@ Statistics Frame::Storage::run()
         part.isLast = part.last == usedChunks;
         // A chunk that was too much for the room is drawn as far as it goes.
         if (!part.isLast && chunks[part.last].isReady) ++part.last;
-        workers.run(grid.count(),
-                    [&](int tile, int worker) { drawTile(part, tile, perWorker[static_cast<std::size_t>(worker)]); });
+        const auto draw = [&](int tile, int worker) {
+            drawTile(part, tile, perWorker[static_cast<std::size_t>(worker)]);
+        };
+        if (follower != nullptr) {
+            draw(follower->tile, 0);
+        } else {
+            workers.run(grid.count(), draw);
+        }
     }
     betweenParts.clear();
 
@@ -365,12 +371,13 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
     if (worker.tile->samples().isMultiple()) worker.samples.resize(coveredBlocks());
     const auto tile = static_cast<std::size_t>(tileIndex);
     const std::uint32_t last = chunk.binStart[tile + 1];
+    const std::size_t most = follower == nullptr ? kLanes : 1;
     for (std::uint32_t next = chunk.binStart[tile]; next < last;) {
         // The next triangles, as far as they are of one draw.
         const std::uint32_t drawIndex = chunk.triangles[chunk.sorted[next]].drawIndex();
         const Triangle* triangles[kLanes];
         std::size_t count = 0;
-        for (; count < kLanes && next < last; ++count, ++next) {
+        for (; count < most && next < last; ++count, ++next) {
             triangles[count] = &chunk.triangles[chunk.sorted[next]];
             if (triangles[count]->drawIndex() != drawIndex) break;
         }
@@ -381,10 +388,12 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
         const Rectangle clip = intersect(tilePixels(tileIndex), draw.geometry.bounds);
         TriangleBatch batch;
         batch.set({triangles, count}, clip, worker.tile->samples(), draw.state.depthBias);
+        if (follower != nullptr) follower->begin(draw, *triangles[0], *worker.tile);
         CoveredBlock* const blocks = worker.blocks.data();
         const CoveredBlock* const end = rasterise(batch, clip, blocks, worker.samples.data());
         if (end != blocks)
             shadeBlocks(draw, {blocks, end}, worker.samples.data(), batch, chunk, *worker.tile, worker.statistics);
+        if (follower != nullptr) follower->end(draw, *triangles[0], *worker.tile);
     }
 }
 

@@ -102,6 +102,20 @@ struct Frame::Storage
     // What tiles hold between the parts of a frame; nothing of those that no triangle has touched yet.
     std::vector<std::vector<std::int32_t>> betweenParts;
 
+    // Who follows one pixel (trace/pixel_trace.cpp): only its tile is drawn then, and its triangles go one by one.
+    struct Follower
+    {
+        int tile = 0;
+
+        // Before and after each triangle of the tile's bin.
+        virtual void begin(const Draw& draw, const Triangle& triangle, Tile& tile) = 0;
+        virtual void end(const Draw& draw, const Triangle& triangle, Tile& tile) = 0;
+
+    protected:
+        ~Follower() = default;
+    };
+    Follower* follower = nullptr;
+
     // A component of a draw that is NaN at every vertex, for dependsOn(); none where `draw` is -1.
     struct Poison
     {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "pipeline/frame_storage.h"
+#include "pipeline/exchange.h"
 
 namespace relief::inline RELIEF_WIDTH {
 
@@ -14,8 +14,7 @@ namespace {
 // What stands in for a draw's fragment program.
 struct WatchedDraw
 {
-    const Programs* programs;  // the draw's own
-    const void* program;
+    OwnProgram own;
     std::optional<Slots> slots;
     bool writesDepth;
     Inspection* result;  // each pixel's values are written by the one thread that has its tile
@@ -35,7 +34,7 @@ struct WatchedBlock
         ShadedBlock copy = block;
         copy.quads = quads;
         const FetchCounters before = std::exchange(shading.fetches, {});
-        draw.programs->shadeBlocks(draw.program, {&copy, 1}, batch, corners);
+        draw.own.shadeBlocks({&copy, 1}, batch, corners);
         return std::exchange(shading.fetches, before);
     }
 
@@ -81,7 +80,7 @@ struct WatchedBlock
 void noteDepth(const WatchedBlock& b, unsigned lanes)
 {
     if (!b.draw.writesDepth) return;
-    if (b.draw.programs->outputs.depth) {
+    if (b.draw.own.programs->outputs.depth) {
         const Float depth = saturate(Float::load(b.block.more->depth));
         return b.forPixels(lanes, [&](glm::vec4& pixel, int lane) { pixel.x = depth[lane]; });
     }
@@ -109,11 +108,7 @@ void noteInterpolator(const WatchedBlock& b, unsigned lanes)
     const auto& [first, second, third] = b.corners[b.block.covered.triangle].components;
     for (int c = 0; c < slots.count; ++c) {
         const int slot = slots.first + c;
-        CornerComponents<1> corners;
-        corners.set(first + slot, second + slot, third + slot);
-        Float value = slots.interpolation == Interpolation::flat     ? corners.flat(0)
-                      : slots.interpolation == Interpolation::affine ? corners.affine(0, weights)
-                                                                     : corners.perspective(0, weights);
+        Float value = interpolated(slots.interpolation, first[slot], second[slot], third[slot], weights);
         if (slots.isInteger) value = Float(asInt(value));
         if (b.draw.result->view.name == "uv") value = value - floor(value);
         b.forPixels(lanes, [&](glm::vec4& pixel, int lane) { pixel[c] = value[lane]; });
@@ -167,7 +162,7 @@ void noteTime(const WatchedBlock& b)
 
 void note(const WatchedBlock& b)
 {
-    const unsigned live = b.block.live, kept = b.draw.programs->discards ? live & ~b.block.discarded : live;
+    const unsigned live = b.block.live, kept = b.draw.own.programs->discards ? live & ~b.block.discarded : live;
     const int blockNumber = b.block.covered.x / kBlockWidth + b.block.covered.y / kBlockHeight;
     switch (b.draw.result->view.sight) {
         case Sight::color:
@@ -199,31 +194,18 @@ void shadeWatched(const void* watched, std::span<ShadedBlock> blocks, const Tria
                   const TriangleCorners* corners)
 {
     const WatchedDraw& draw = *static_cast<const WatchedDraw*>(watched);
-    draw.programs->shadeBlocks(draw.program, blocks, batch, corners);
+    draw.own.shadeBlocks(blocks, batch, corners);
     for (const ShadedBlock& block : blocks) note({draw, block, batch, corners});
 }
 
-// Runs the frame with tables of programs that note, and puts the draws' own back.
+// Runs the frame with programs that note.
 void runWatched(Frame::Storage& frame, Inspection& result)
 {
-    const std::size_t count = frame.draws.size();
-    std::vector<Programs> tables(count);
-    std::vector<WatchedDraw> watched(count);
-    std::vector<ErasedProgram> programs;
-    for (std::size_t d = 0; d < count; ++d) {
-        Draw& draw = frame.draws[d];
-        watched[d] = {draw.programs, draw.fragmentProgram.get(), slotsOf(draw, result.view.name), draw.state.depthWrite,
-                      &result};
-        tables[d] = *draw.programs;
-        tables[d].shadeBlocks = shadeWatched;
-        draw.programs = &tables[d];
-        programs.push_back(std::exchange(draw.fragmentProgram, ErasedProgram(&watched[d], [](const void*) {})));
-    }
+    const auto watched = [&result](const Draw& draw, const OwnProgram& own) {
+        return WatchedDraw{own, slotsOf(draw, result.view.name), draw.state.depthWrite, &result};
+    };
+    const ExchangedPrograms<WatchedDraw> exchanged(frame, watched, shadeWatched);
     result.statistics = frame.run();
-    for (std::size_t d = 0; d < count; ++d) {
-        frame.draws[d].programs = watched[d].programs;
-        frame.draws[d].fragmentProgram = std::move(programs[d]);
-    }
 }
 
 // The scale's ends: what the view's numbers can be, or else the smallest and the largest of the picture.

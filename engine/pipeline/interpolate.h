@@ -207,6 +207,16 @@ struct CornerComponents
     }
 };
 
+// One component by itself, as interpolate() makes it; `weights` are the centroids' where that is how.
+inline Float interpolated(Interpolation how, float a, float b, float c, const BlockWeights& weights)
+{
+    CornerComponents<1> corners;
+    corners.set(&a, &b, &c);
+    return how == Interpolation::flat     ? corners.flat(0)
+           : how == Interpolation::affine ? corners.affine(0, weights)
+                                          : corners.perspective(0, weights);
+}
+
 // Fills in a fragment program's input. What the program does not read, the compiler leaves out. `centroid` holds the
 // edge functions at the centroids: the pixels' centres, where a pixel has one sample. `isFront`: whether the triangle
 // is seen from its front.

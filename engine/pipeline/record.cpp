@@ -72,7 +72,8 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
 
     const std::vector<StreamView> streams = streamsOf(mesh);
     const std::size_t meshVertices = vertexCountOf(streams, mesh);
-    Draw draw = {&programs,
+    Draw draw = {mesh.name,
+                 &programs,
                  programs.copyVertexProgram(vertexProgram),
                  programs.copyFragmentProgram(fragmentProgram),
                  state,

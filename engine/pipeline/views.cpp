@@ -9,12 +9,6 @@ namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
-std::string nameOf(const Field& field)
-{
-    const std::string_view name = field.name;
-    return field.name + (name == "TEXCOORD" || name == "COLOR" ? std::to_string(field.index) : "");
-}
-
 // Any numbers, other ones in every field, component and lane. Integers and ids stay 0, as a program may count with
 // them.
 VertexLanes someVertices(Fields vertexData, std::size_t changed)
@@ -44,7 +38,7 @@ std::vector<std::string> sourcesOf(const Draw& draw, const Slots& slots)
         bool depends = false;
         for (int i = slots.first; i < slots.first + slots.count; ++i)
             depends = depends || any(asInt(plain.components[i]) != asInt(other.components[i]));
-        if (depends) sources.push_back(nameOf(programs.vertexData[f]));
+        if (depends) sources.push_back(semanticOf(programs.vertexData[f]));
     }
     return sources;
 }
@@ -82,6 +76,12 @@ bool isThere(const std::vector<Draw>& draws, const char* name)
 
 }  // namespace
 
+std::string semanticOf(const Field& field)
+{
+    const std::string_view name = field.name;
+    return field.name + (name == "TEXCOORD" || name == "COLOR" ? std::to_string(field.index) : "");
+}
+
 std::optional<Slots> slotsOf(const Draw& draw, const std::string& name)
 {
     const std::size_t dot = name.find('.');
@@ -91,10 +91,10 @@ std::optional<Slots> slotsOf(const Draw& draw, const std::string& name)
         const auto isFrom = [&](const char* source) {
             return sourcesOf(draw, slots) == std::vector<std::string>{source};
         };
-        if (field.isInteger     ? nameOf(field) == whole
+        if (field.isInteger     ? semanticOf(field) == whole
             : whole == "normal" ? slots.count == 3 && isFrom("NORMAL")
             : whole == "uv"     ? slots.count >= 2 && isFrom("TEXCOORD0")
-                                : nameOf(field) == whole)
+                                : semanticOf(field) == whole)
             found = slots;
         return found.has_value();
     });
@@ -115,9 +115,9 @@ std::vector<View> viewsOf(const Frame& frame)
     if (isThere(draws, "uv")) views.push_back({"uv", "the fraction of each", "", Sight::interpolator});
     for (const Draw& draw : draws) {
         forEachInterpolator(draw, [&](const Field& field, const Slots& slots) {
-            const auto same = [&](const View& view) { return view.name == nameOf(field); };
+            const auto same = [&](const View& view) { return view.name == semanticOf(field); };
             if (std::none_of(views.begin(), views.end(), same))
-                views.push_back({nameOf(field), meaningOf(draw, field, slots), "", Sight::interpolator});
+                views.push_back({semanticOf(field), meaningOf(draw, field, slots), "", Sight::interpolator});
             return false;
         });
     }

@@ -246,9 +246,11 @@ Expected<ImageFile> decodeImage(std::vector<std::uint8_t> bytes, const std::stri
     return image;
 }
 
-Expected<void> writePng(const std::string& path, int width, int height, std::span<const std::uint8_t> rgba)
+Expected<std::vector<std::uint8_t>> encodePng(const std::string& path, int width, int height,
+                                              std::span<const std::uint8_t> rgba)
 {
-    if (const Expected<void> checked = checkWrite(path, width, height, rgba.size(), 4); !checked) return checked;
+    if (const Expected<void> checked = checkWrite(path, width, height, rgba.size(), 4); !checked)
+        return tl::unexpected(checked.error());
     if (rgba.size() > kMaxWrittenPngBytes) {
         return fail(path + ": " + toString({width, height}) + " is too large for a PNG; scale it down");
     }
@@ -261,7 +263,14 @@ Expected<void> writePng(const std::string& path, int width, int height, std::spa
     if (!stbi_write_png_to_func(take, &png, width, height, 4, rgba.data(), width * 4) || png.empty()) {
         return fail(path + ": not enough memory to compress the picture; scale it down");
     }
-    return writeFileAtomically(path, png);
+    return png;
+}
+
+Expected<void> writePng(const std::string& path, int width, int height, std::span<const std::uint8_t> rgba)
+{
+    const Expected<Bytes> png = encodePng(path, width, height, rgba);
+    if (!png) return tl::unexpected(png.error());
+    return writeFileAtomically(path, *png);
 }
 
 Expected<void> writePfm(const std::string& path, int width, int height, std::span<const float> rgb)

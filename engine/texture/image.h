@@ -47,6 +47,10 @@ Expected<ImageFile> decodeImage(std::vector<std::uint8_t> bytes, const std::stri
 // kMaxWrittenPngBytes, or the file cannot be written.
 Expected<void> writePng(const std::string& path, int width, int height, std::span<const std::uint8_t> rgba);
 
+// The bytes of such a file, for another one. Errors begin with `name`.
+Expected<std::vector<std::uint8_t>> encodePng(const std::string& name, int width, int height,
+                                              std::span<const std::uint8_t> rgba);
+
 // Writes RGB floats, row 0 on top, as little-endian PFM, bit for bit (NaN and infinity too), through
 // writeFileAtomically. An error as in writePng, with three channels.
 Expected<void> writePfm(const std::string& path, int width, int height, std::span<const float> rgb);

@@ -375,6 +375,24 @@ int runProgram(int argc, char** argv, const Program& program)
     command->add_flag("--json", json, "As JSON");
     command->callback([&] { run("explain", program.explain, options, json); });
 
+    command = app.add_subcommand("trace", "Tells the life of one pixel: from the triangles around it to its byte");
+    TraceOptions traceOptions;
+    addInputOptions(*command, traceOptions.render);
+    addTargetOptions(*command, traceOptions.render);
+    command->add_option("--pixel", traceOptions.pixel, "Which one, counted from the upper left: 480,270")
+        ->required()
+        ->type_name("X,Y");
+    CLI::Option* const asJson = command->add_flag("--json", traceOptions.json, "As JSON");
+    CLI::Option* const asPage =
+        command->add_option("--html", traceOptions.html, "As a page, in one file that works offline")
+            ->type_name("FILE.html")
+            ->excludes(asJson);
+    command->add_option("--against", traceOptions.against, "Another stage: the first value that differs there")
+        ->type_name("STAGE")
+        ->excludes(asJson)
+        ->excludes(asPage);
+    command->callback([&] { run("trace", program.trace, traceOptions); });
+
     command = app.add_subcommand("bench",
                                  "Measures how fast frames are: of test scenes (with options of Google Benchmark), of "
                                  "stages with --stage, beside another rasterizer with --peer, or from a save to the "

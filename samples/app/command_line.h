@@ -20,6 +20,7 @@ struct Program
     Expected<void> (*hash)(const RenderOptions& options) = nullptr;
     Expected<void> (*signature)(const RenderOptions& options, const std::string& binormal) = nullptr;
     Expected<void> (*explain)(const RenderOptions& options, bool json) = nullptr;
+    Expected<void> (*trace)(const TraceOptions& options) = nullptr;
     Expected<void> (*bench)(const std::vector<std::string>& arguments) = nullptr;
     Expected<void> (*benchStages)(const BenchOptions& options) = nullptr;
     Expected<void> (*benchLive)(const LiveBenchOptions& options) = nullptr;

@@ -2,6 +2,7 @@
 // nobody who wants a picture builds them.
 #include "command_line.h"
 #include "commands.h"
+#include "trace/command.h"
 
 namespace {
 
@@ -36,5 +37,6 @@ int main(int argc, char** argv)
                        .hash = hash,
                        .signature = signature,
                        .explain = explain,
+                       .trace = traceStage,
                        .benchLive = measureSaves});
 }

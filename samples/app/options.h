@@ -27,6 +27,16 @@ struct RenderOptions
     std::string compiler;  // of live stages: "g++" or "clang++"; empty: the fastest
 };
 
+// Which pixel's life `trace` tells, and in what form.
+struct TraceOptions
+{
+    RenderOptions render;
+    std::string pixel;    // "X,Y"
+    std::string html;     // a file for a page; empty: text
+    std::string against;  // another stage, for the first difference
+    bool json = false;
+};
+
 // What `view` shows, and how.
 struct ViewOptions
 {

@@ -87,7 +87,12 @@ Expected<PreparedStage> prepare(const RenderOptions& options)
 {
     const Expected<const Stage*> stage = stageOf(options.stage);
     if (!stage) return tl::unexpected(stage.error());
-    Expected<PreparedStage> prepared = PreparedStage::prepare(**stage, options.settings, options.files);
+    return prepare(**stage, options);
+}
+
+Expected<PreparedStage> prepare(const Stage& stage, const RenderOptions& options)
+{
+    Expected<PreparedStage> prepared = PreparedStage::prepare(stage, options.settings, options.files);
     if (prepared && !options.camera.empty()) {
         const Expected<Camera> camera = parseCamera(options.camera);
         if (!camera) return tl::unexpected(camera.error());

@@ -21,6 +21,9 @@ Expected<const Stage*> stageOf(const std::string& name);
 // The stage that the options name, with their settings and files.
 Expected<PreparedStage> prepare(const RenderOptions& options);
 
+// The same with a stage that is at hand.
+Expected<PreparedStage> prepare(const Stage& stage, const RenderOptions& options);
+
 // "X,Y,Z": a camera there that looks at the origin. Three more numbers: at that point instead; a seventh: the field of
 // view in degrees; two more: the near and the far plane.
 Expected<Camera> parseCamera(const std::string& text);

@@ -132,8 +132,8 @@ std::string stageFunction(const std::string& text)
 
 // --- the compilers ---
 
-Compile::Compile(const Toolchain& toolchain, SourceText itsSource, const Division& division, const std::string& folder,
-                 int version)
+Compile::Compile(const std::string& compiler, const std::vector<std::string>& itsWords, SourceText itsSource,
+                 const Division& division, const std::string& folder, int version)
     : source(std::move(itsSource)), stem(folder + "/" + std::to_string(version)), begin(Clock::now())
 {
     if (stageFunction(source.text).empty()) {
@@ -147,8 +147,8 @@ Compile::Compile(const Toolchain& toolchain, SourceText itsSource, const Divisio
         const std::string base = stem + "_" + std::to_string(part);
         std::ofstream(base + ".cpp", std::ios::binary) << completeText(source, division, part);
         objects.push_back(base + ".o");
-        std::vector<std::string> words = {toolchain.path};
-        words.insert(words.end(), toolchain.words.begin(), toolchain.words.end());
+        std::vector<std::string> words = {compiler};
+        words.insert(words.end(), itsWords.begin(), itsWords.end());
         words.insert(words.end(), {"-iquote", home.empty() ? "." : home, "-c", base + ".cpp", "-o", objects.back()});
         running.push_back(start(words));
     }

@@ -60,9 +60,10 @@ struct Compiled
 class Compile
 {
 public:
-    // `version` is part of the files' names: every object has a name of its own.
-    Compile(const Toolchain& toolchain, SourceText source, const Division& division, const std::string& folder,
-            int version);
+    // `words`: the compiler's, but for files. `version` is part of the files' names: every object has a name of its
+    // own.
+    Compile(const std::string& compiler, const std::vector<std::string>& words, SourceText source,
+            const Division& division, const std::string& folder, int version);
     ~Compile();
     Compile(const Compile&) = delete;
     Compile& operator=(const Compile&) = delete;

@@ -32,28 +32,42 @@ Expected<LoadedStage> loadObject(const std::string& object, const StageSource& s
     return loaded;
 }
 
-Expected<const Stage*> loadStage(const std::string& path)
+Expected<StageCompile> StageCompile::start(const StageSource& source, const std::string& text, bool isTraced)
+{
+    const Expected<const Toolchain*> toolchain = isTraced ? findTracedToolchain() : findToolchain();
+    if (!toolchain) return tl::unexpected(toolchain.error());
+    Expected<PrivateFolder> folder = PrivateFolder::create();
+    if (!folder) return tl::unexpected(folder.error());
+    const std::vector<std::string>& words = isTraced ? (*toolchain)->tracedWords : (*toolchain)->words;
+    auto compile = std::make_unique<Compile>((*toolchain)->path, words, SourceText{source.path, text},
+                                             Division{.parts = 1, .owners = {}}, folder->path, 0);
+    return StageCompile(source, std::move(*folder), std::move(compile));
+}
+
+Expected<const Stage*> StageCompile::finish()
 {
     static std::deque<Stage> stages;  // as long as the program runs: so do their programs
-    const Expected<StageSource> source = findSource(path);
-    if (!source) return tl::unexpected(source.error());
-    const Expected<const Toolchain*> toolchain = findToolchain();
-    if (!toolchain) return tl::unexpected(toolchain.error());
-    const Expected<std::string> text = readText(source->path);
-    if (!text) return tl::unexpected(text.error());
-    const Expected<PrivateFolder> folder = PrivateFolder::create();
-    if (!folder) return tl::unexpected(folder.error());
-    Compile compile(**toolchain, {source->path, *text}, {.parts = 1, .owners = {}}, folder->path, 0);
-    const Compiled compiled = compile.wait();
+    const Compiled compiled = compile->wait();
     if (compiled.object.empty()) {
         std::fputs(formatted(compiled.errors).c_str(), stderr);
         const Diagnostic& first = compiled.errors.front();
-        return fail(path + (first.line > 0 ? ":" + std::to_string(first.line) : "") +
+        return fail(source.path + (first.line > 0 ? ":" + std::to_string(first.line) : "") +
                     ": does not compile; the first error is above");
     }
-    Expected<LoadedStage> loaded = loadObject(compiled.object, *source);
+    Expected<LoadedStage> loaded = loadObject(compiled.object, source);
     if (!loaded) return tl::unexpected(loaded.error());
     return &stages.emplace_back(std::move(loaded->stage));
+}
+
+Expected<const Stage*> loadStage(const std::string& path)
+{
+    const Expected<StageSource> source = findSource(path);
+    if (!source) return tl::unexpected(source.error());
+    const Expected<std::string> text = readText(source->path);
+    if (!text) return tl::unexpected(text.error());
+    Expected<StageCompile> compile = StageCompile::start(*source, *text);
+    if (!compile) return tl::unexpected(compile.error());
+    return compile->finish();
 }
 
 }  // namespace relief::samples::live

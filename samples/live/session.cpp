@@ -70,7 +70,8 @@ void Session::begin()
     incoming.reset();
     replaying = false;
     ++version;
-    compile = std::make_unique<Compile>(toolchain, SourceText{itsSource.path, text}, division, folder.path, version);
+    compile = std::make_unique<Compile>(toolchain.path, toolchain.words, SourceText{itsSource.path, text}, division,
+                                        folder.path, version);
 }
 
 void Session::look(const Look& look)

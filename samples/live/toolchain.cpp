@@ -42,6 +42,16 @@ Expected<const Toolchain*> findToolchain(const std::string& name)
     return fail("no compiler for stages: install g++ 12 or later, or clang 14 or later (Debian: apt-get install g++)");
 }
 
+Expected<const Toolchain*> findTracedToolchain()
+{
+    for (const Toolchain& toolchain : toolchains()) {
+        std::error_code ignored;
+        if (isThere(toolchain) && std::filesystem::exists(toolchain.tracedPrecompiled, ignored)) return &toolchain;
+    }
+    return fail(
+        "the precompiled headers for traces are missing; build the target relief_traced_headers (./relief does)");
+}
+
 bool namesFile(const std::string& stage)
 {
     return stage.ends_with(".cpp");

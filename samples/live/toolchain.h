@@ -17,6 +17,10 @@ struct Toolchain
     // The file of the precompiled headers, and what a stage is compiled with, them included.
     std::string precompiled;
     std::vector<std::string> words;
+
+    // The same for traced stages (trace/traced_stage.h).
+    std::string tracedPrecompiled;
+    std::vector<std::string> tracedWords;
 };
 
 // All that CMake found, the fastest first.
@@ -25,6 +29,9 @@ const std::vector<Toolchain>& toolchains();
 // The one of that name, "g++" or "clang++"; without a name, the fastest that is there. An error says what to install or
 // to build.
 Expected<const Toolchain*> findToolchain(const std::string& name = "");
+
+// The fastest one with headers for traced stages.
+Expected<const Toolchain*> findTracedToolchain();
 
 struct StageSource
 {

@@ -1,0 +1,131 @@
+#include "trace/command.h"
+
+#include <charconv>
+#include <cstdio>
+
+#include "file.h"
+#include "prepare.h"
+#include "trace/tell.h"
+
+namespace relief::samples {
+
+namespace {
+
+using namespace samples::trace;
+using relief::trace::tracePixel;
+
+struct Pixel
+{
+    int x, y;
+};
+
+Expected<Pixel> parsePixel(const std::string& text)
+{
+    Pixel pixel{};
+    const char* const end = text.data() + text.size();
+    const auto [comma, xError] = std::from_chars(text.data(), end, pixel.x);
+    if (xError == std::errc() && comma != end && *comma == ',') {
+        const auto [rest, yError] = std::from_chars(comma + 1, end, pixel.y);
+        if (yError == std::errc() && rest == end) return pixel;
+    }
+    return fail("--pixel " + text + ": write X,Y, counted from the upper left pixel 0,0, such as 480,270");
+}
+
+// A stage's frame on a target of its own.
+struct Recorded
+{
+    std::unique_ptr<Framebuffer> target;
+    std::unique_ptr<Frame> frame;
+    std::unique_ptr<PreparedStage> stage;
+
+    static Expected<Recorded> record(const Stage& stage, const RenderOptions& options, Size size)
+    {
+        Expected<PreparedStage> prepared = prepare(stage, options);
+        if (!prepared) return tl::unexpected(prepared.error());
+        Expected<Framebuffer> target =
+            Framebuffer::create(size.width, size.height, Format::rgba8Srgb, Store::discard, options.samples);
+        if (!target) return tl::unexpected(target.error());
+        Recorded all;
+        all.stage = std::make_unique<PreparedStage>(std::move(*prepared));
+        all.target = std::make_unique<Framebuffer>(std::move(*target));
+        all.frame = std::make_unique<Frame>(*all.target,
+                                            FrameOptions{.threads = options.threads, .tileSize = options.tileSize});
+        all.stage->record(*all.frame, size.width, size.height);
+        if (const std::string problem = all.stage->problem(*all.frame); !problem.empty()) return fail(problem);
+        return all;
+    }
+};
+
+// What is told of a stage's pixel, and the picture that it is in.
+struct Told
+{
+    PixelTrace trace;
+    Subject subject;
+    Recorded picture;
+};
+
+std::string commandOf(const RenderOptions& options, const std::string& pixel)
+{
+    std::string words = "relief trace " + options.stage + " --pixel " + pixel + " --size " + options.size;
+    if (options.samples != 1) words += " --samples " + std::to_string(options.samples);
+    if (!options.camera.empty()) words += " --camera " + options.camera;
+    for (const std::string& setting : options.settings) words += " --set " + setting;
+    return words;
+}
+
+Expected<Told> toldOf(const RenderOptions& options, const std::string& pixelText)
+{
+    const Expected<Size> size = parseSize(options.size);
+    if (!size) return tl::unexpected(size.error());
+    const Expected<Pixel> pixel = parsePixel(pixelText);
+    if (!pixel) return tl::unexpected(pixel.error());
+    const Expected<TracedStage> stage = loadTraced(options.stage);
+    if (!stage) return tl::unexpected(stage.error());
+    Expected<Recorded> plain = Recorded::record(*stage->plain, options, *size);
+    if (!plain) return tl::unexpected(plain.error());
+    Expected<Recorded> traced = Recorded::record(*stage->traced, options, *size);
+    if (!traced) return tl::unexpected(traced.error());
+    const Expected<PixelTrace> trace = tracePixel(*traced->frame, pixel->x, pixel->y);
+    if (!trace) return fail("--pixel " + pixelText + ": " + trace.error().message);
+    plain->frame->run();
+    const std::size_t at =
+        static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(size->width) + static_cast<std::size_t>(pixel->x);
+    if (plain->target->color8()[at] != trace->storedWords[0]) {
+        return fail("--pixel " + pixelText +
+                    ": the trace does not end at the picture's pixel; this is a defect of Relief, please report it");
+    }
+    return Told{*trace, Subject(*stage, commandOf(options, pixelText)), std::move(*plain)};
+}
+
+}  // namespace
+
+Expected<void> traceStage(const TraceOptions& options)
+{
+    const Expected<Told> told = toldOf(options.render, options.pixel);
+    if (!told) return tl::unexpected(told.error());
+    if (!options.against.empty()) {
+        RenderOptions other = options.render;
+        other.stage = options.against;
+        const Expected<Told> second = toldOf(other, options.pixel);
+        if (!second) return tl::unexpected(second.error());
+        const std::string difference =
+            firstDifference(tell(told->trace, told->subject), tell(second->trace, second->subject));
+        std::printf("%s\n", difference.empty() ? "the traces are the same" : difference.c_str());
+        return {};
+    }
+    if (!options.html.empty()) {
+        const Expected<std::string> page = toHtml(told->trace, told->subject, told->picture.target->color8());
+        if (!page) return tl::unexpected(page.error());
+        const Expected<void> written =
+            writeFileAtomically(options.html, {reinterpret_cast<const std::uint8_t*>(page->data()), page->size()});
+        if (!written) return tl::unexpected(written.error());
+        std::printf("%s\n", options.html.c_str());
+        return {};
+    }
+    std::fputs(
+        options.json ? toJson(told->trace, told->subject).c_str() : toText(tell(told->trace, told->subject)).c_str(),
+        stdout);
+    return {};
+}
+
+}  // namespace relief::samples

@@ -1,0 +1,7 @@
+// What a traced stage's file includes, precompiled (samples/live/CMakeLists.txt): what instrumented sources call stands
+// before all of them.
+#pragma once
+
+#include "trace/see.h"
+
+#include "live/headers.h"

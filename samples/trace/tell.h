@@ -1,0 +1,52 @@
+// A trace in words: a tree of short sentences, which becomes text, a page, or the first difference of two.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trace/pixel_trace.h"
+#include "trace/traced_stage.h"
+
+namespace relief::samples::trace {
+
+using relief::trace::PixelTrace;
+
+// What a trace is of: where its lines are looked up, and how one gets it again.
+struct Subject
+{
+    std::string stage;               // "1.25 Lit scene"
+    std::string command;             // that makes this trace
+    std::string file;                // of its events
+    std::vector<std::string> lines;  // of that file
+
+    Subject(const TracedStage& its, std::string itsCommand);
+    std::string line(const ::relief::trace::Site& site) const;  // without blanks around it; empty for other files
+};
+
+struct Node
+{
+    std::string label, value;
+    std::vector<Node> children;
+    std::string code;                               // the source's line
+    std::optional<std::array<float, 3>> color;      // a linear colour to show
+    std::optional<std::array<float, 3>> direction;  // a direction to show
+    bool isInvalid = false;                         // has a NaN or an infinity
+    bool isFolded = false;                          // of interest only when asked for
+};
+
+Node tell(const PixelTrace& trace, const Subject& subject);
+
+std::string toText(const Node& node);
+
+// One file that works offline. `picture`: all of it, row 0 on top, R, G, B, A from the lowest byte up.
+Expected<std::string> toHtml(const PixelTrace& trace, const Subject& subject, std::span<const std::uint32_t> picture);
+
+// The schema is in docs/life_of_a_pixel.md.
+std::string toJson(const PixelTrace& trace, const Subject& subject);
+
+// The first place where two traces differ, in words; empty: nowhere.
+std::string firstDifference(const Node& a, const Node& b);
+
+}  // namespace relief::samples::trace
