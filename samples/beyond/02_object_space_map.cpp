@@ -21,7 +21,7 @@ struct Interpolators {
     TEXCOORD<2, float4> tangent;
 };
 
-struct MyVertexProgram : ShadowMaterial {
+struct MyVertexProgram : StoneMaterial {
     float4 uv_ST = vector("uv_ST", {1, 1, 0, 0}, {-16, 16}, "tiling in x and y, offset in z and w");
 
     Interpolators operator()(VertexData v) const {
@@ -46,7 +46,7 @@ struct UnfoldVertexProgram : MyVertexProgram {
 };
 
 template <bool BAKE>
-struct TangentSpaceProgram : ShadowMaterial {
+struct TangentSpaceProgram : StoneMaterial {
     float3 NormalOf(const Interpolators& i) const {
         const float3 binormal =
             CreateBinormal(i.normal, i.tangent.xyz(), i.tangent.w, object.unity_WorldTransformParams.w);
@@ -60,7 +60,7 @@ struct TangentSpaceProgram : ShadowMaterial {
     }
 };
 
-struct ObjectSpaceProgram : ShadowMaterial {
+struct ObjectSpaceProgram : StoneMaterial {
     sampler2D objectNormalMap = {};
 
     float4 operator()(Interpolators i) const {
@@ -68,6 +68,17 @@ struct ObjectSpaceProgram : ShadowMaterial {
         const float3 normal = UnityObjectToWorldNormal(object, tex2D(objectNormalMap, i.uv).xyz() * 2.0f - 1.0f);
         return float4(tint.rgb() * (light.color * saturate(dot(normal, light.dir)) + ambient), 1);
     }
+};
+
+// A tangent-space map as most formats show it.
+struct ShowBumps : StoneMaterial {
+    float4 operator()(ScreenInterpolators i) const {
+        return float4(pow(UnpackScaleNormal(tex2D(normalMap, i.uv), bumpScale) * 0.5f + 0.5f, float3(2.2f)), 1);
+    }
+};
+struct ShowNormals {
+    sampler2D map;
+    float4 operator()(ScreenInterpolators i) const { return float4(pow(tex2D(map, i.uv).rgb(), float3(2.2f)), 1); }
 };
 
 struct Map : Uniforms {
@@ -79,9 +90,9 @@ sampler2D ObjectSpaceMap(const Scene& s) {
     const Map map = s.uniforms();
     const int side = static_cast<int>(map.mapSize[0]);
     const Framebuffer& baked = s.pass(*Framebuffer::create(side, side, {{Format::rgba8}}), [&map](const Scene& p) {
-        // Four times moved by two texels, so that filters find normals beyond the edges of what is laid out.
+        // Four times moved by six texels, so that filters find normals beyond the edges of what is laid out.
         for (const glm::vec2& moved :
-             {glm::vec2(-2, 0), glm::vec2(2, 0), glm::vec2(0, -2), glm::vec2(0, 2), glm::vec2(0)}) {
+             {glm::vec2(-6, 0), glm::vec2(6, 0), glm::vec2(0, -6), glm::vec2(0, 6), glm::vec2(0)}) {
             UnfoldVertexProgram vertex = p.uniforms();
             vertex.moved = moved;
             vertex.side = map.mapSize;
@@ -115,22 +126,21 @@ Stage beyond_02_object_space_map() {
             .news = "One relief as two maps, on a sphere as it is, mirrored, with mirrored uv, and tiled.",
             .uniforms = declared<MyVertexProgram, Map>(),
             .mesh = "sphere",
-            .camera = {.position = {0.0f, 0.5f, -3.35f}},
+            .camera = {.position = {0.0f, 0.5f, -4.2f}},
             .draw = [](const Scene& s) {
                 const sampler2D normals = ObjectSpaceMap(s);
                 const glm::mat4 turned = rotationY(30.0f);
                 const Mesh& mirroredUv = s.keep(withMirroredUv(s.withTangents(s.mesh)));
                 s.cutCell(0, 5, 0, 2);
-                s.draw(primitive("quad"), ScreenVertexProgram{0.18f, 0.32f}, ShowPicture{normals});
+                s.draw(primitive("quad"), ScreenVertexProgram{0.18f, 0.32f}, ShowNormals{normals});
                 s.cutCell(0, 5, 1, 2);
-                s.draw(primitive("quad"), ScreenVertexProgram{0.18f, 0.32f},
-                       ShowPicture{TangentSpaceProgram<false>(s.uniforms()).normalMap});
+                s.draw(primitive("quad"), ScreenVertexProgram{0.18f, 0.32f}, ShowBumps(s.uniforms()));
                 DrawColumn(s, 1, {&s.mesh, turned}, normals);
                 DrawColumn(s, 2, {&s.mesh, scaling({-1, 1, 1}) * turned}, normals);
                 DrawColumn(s, 3, {&mirroredUv, turned}, normals);
                 DrawColumn(s, 4, {&s.mesh, turned}, normals, 3.0f);
-                s.labelColumns({"object space", "as it is", "mirrored", "wrong: mirrored uv", "wrong: tiled"}, 0, 2);
-                s.labelColumns({"tangent space", "as it is", "mirrored", "mirrored uv", "tiled"}, 1, 2);
+                s.labelColumns({"object space", "as it is", "mirrored", "wrong: flipped u", "wrong: tiled"}, 0, 2);
+                s.labelColumns({"tangent space", "as it is", "mirrored", "flipped u", "tiled"}, 1, 2);
             }};
 }
 

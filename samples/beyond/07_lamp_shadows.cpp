@@ -46,8 +46,8 @@ struct NoColor {
     float4 operator()(DepthInterpolators) const { return float4(0.0f); }
 };
 
-struct Lamp : ShadowMaterial {
-    float3 lampPosition = vector("lampPosition", {0.0f, 0.35f, -0.15f}, {-4, 4}, "of the lamp");
+struct Lamp : StoneMaterial {
+    float3 lampPosition = vector("lampPosition", {0.05f, 0.75f, -0.3f}, {-4, 4}, "of the lamp");
     Float range = number("range", 5.0f, {0.5f, 20}, "how far the lamp shines");
     Float strength = number("strength", 2.0f, {0, 16}, "of the lamp's light");
     Float mapSize = number("mapSize", 256.0f, {16, 1024}, "side of each of the six pictures, texels");
@@ -91,14 +91,15 @@ struct Glow : Lamp {
     float4 operator()(DepthInterpolators) const { return float4(saturate(lampColor * strength), 1); }
 };
 
-// White where the lamp is, black at its range.
+// White where the lamp is, black from two units on.
 struct ShowDistance : Lamp {
     sampler2D depth = {};
 
     float4 operator()(ScreenInterpolators i) const {
         const Float z = tex2D(depth, i.uv).x;
         const Float along = kNear * range / (range - z * (range - kNear));
-        return float4(float3(1.0f - saturate(along / (range * 0.6f))), 1);
+        const Float near = 1.0f - saturate(along * 0.5f);
+        return float4(float3(near * near), 1);
     }
 };
 
@@ -126,7 +127,7 @@ void DrawLit(const Scene& s, int row, const Lamp& lamp, const SamplerCubeCompari
 }
 
 // The cube unfolded, one of its faces in each cell: column and row.
-constexpr glm::ivec2 kCross[] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}};
+constexpr glm::ivec2 kCross[] = {{2, 2}, {0, 2}, {1, 1}, {1, 3}, {1, 2}, {3, 2}};
 
 }  // namespace
 
@@ -136,7 +137,7 @@ Stage beyond_07_lamp_shadows() {
             .news = "A lamp among the shapes: six depths, one for each face of a cube around it.",
             .uniforms = declared<MyFragmentProgram<true>>(),
             .mesh = "cube+sphere+quad",
-            .camera = {.position = {0.0f, 2.1f, -3.6f}, .target = {0.0f, -0.2f, 0.0f}},
+            .camera = {.position = {0.0f, 3.6f, -5.6f}, .target = {0.0f, -0.25f, 0.0f}},
             .draw = [](const Scene& s) {
                 const Lamp lamp = s.uniforms();
                 SamplerCubeComparisonState map;
@@ -150,10 +151,12 @@ Stage beyond_07_lamp_shadows() {
                 s.label("no shadows");
                 DrawLit<true>(s, 1, lamp, map);
                 s.label("six depths in a cube");
+                s.cutCell(1, 2);
+                s.label("what the lamp sees: white is near");
                 const float wide = 0.97f / 8.0f,
                             high = wide * static_cast<float>(s.width) / static_cast<float>(s.height);
                 for (int face = 0; face < kCubeFaces; ++face) {
-                    s.cutCell(4 + kCross[face].x, 8, kCross[face].y, 3);
+                    s.cutCell(4 + kCross[face].x, 8, kCross[face].y, 4);
                     ShowDistance program = s.uniforms();
                     program.depth = depths[face];
                     s.draw(primitive("quad"), ScreenVertexProgram{wide, high}, program);

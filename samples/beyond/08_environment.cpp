@@ -29,8 +29,8 @@ struct MyVertexProgram : Uniforms {
 };
 
 struct Surrounded : Uniforms {
-    samplerCUBE environment = reflections();
-    Float level = number("level", 3.0f, {0, 8}, "of the cube map, in the second and third picture");
+    samplerCUBE environment = radiance();
+    Float level = number("level", 5.0f, {0, 8}, "of the cube map, in the second and third picture");
     Float exposure = number("exposure", 0.8f, {0, 8}, "what all light is multiplied by");
 
     float4 ColorIn(const float3& direction) const {
@@ -76,7 +76,7 @@ Stage beyond_08_environment() {
         .news = "A mirror in a cube map; a coarse level of it, with filters that end at a face's edge, and without.",
         .uniforms = declared<MirrorProgram>(),
         .mesh = "sphere",
-        .camera = {.position = {-0.9f, 0.55f, -1.35f}, .fieldOfView = 46.0f},
+        .camera = {.position = {-1.1f, 0.6f, -1.75f}, .fieldOfView = 46.0f},
         .draw = [](const Scene& s) {
             DrawColumn(s, 0, true, true);
             DrawColumn(s, 1, false, false);

@@ -34,51 +34,66 @@ struct MyVertexProgram : DetailedMarble {
     }
 };
 
-enum class Normals { whiteout, averaged, approximateRoot };
-
-template <Normals NORMALS, bool MIRROR>
+template <bool MIRROR>
 struct MyFragmentProgram : DetailedMarble {
     samplerCUBE environment = reflections();
     SphericalHarmonics light = irradiance();
-    Float bumpScale = number("bumpScale", 0.7f, {-32, 32}, "the bumps' strength; 1: as the map was made");
-    Float detailBumpScale = number("detailBumpScale", 0.0f, {-32, 32}, "of the detail's bumps");
+    Float bumpScale = number("bumpScale", 0.2f, {-32, 32}, "the bumps' strength; 1: as the map was made");
+    Float detailBumpScale = number("detailBumpScale", 0.1f, {-32, 32}, "of the detail's bumps");
+    float bumpLevel = number("bumpLevel", 1.0f, {0, 8}, "finest level of the normal maps: the higher, the smoother");
     Float exposure = number("exposure", 0.8f, {0, 8}, "what all light is multiplied by");
-    Float roughness = 0.0f;
-    int levels = environment.texture != nullptr ? environment.texture->levelCount() : 1;
+    bool isAveraged = false;  // as in 1.16
 
-    float3 Unpack(const float4& packednormal, Float scale) const {
-        float3 normal = UnpackScaleNormal(packednormal, scale);
-        if constexpr (NORMALS == Normals::approximateRoot) normal.z = 1.0f - 0.5f * dot(normal.xy(), normal.xy());
-        return normal;
-    }
-
-    void InitializeFragmentNormal(Interpolators& i) const {
-        const float3 mainNormal = Unpack(tex2D(normalMap, i.uv.xy()), bumpScale);
-        const float3 detailNormal = Unpack(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
-        const float3 bump = NORMALS == Normals::averaged ? BlendNormalsAverage(mainNormal, detailNormal)
-                                                         : BlendNormals(mainNormal, detailNormal);
+    float3 NormalOf(const Interpolators& i) const {
+        const float3 mainNormal = UnpackScaleNormal(tex2D(normalMap, i.uv.xy()), bumpScale);
+        const float3 detailNormal = UnpackScaleNormal(tex2D(detailNormalMap, i.uv.zw()), detailBumpScale);
+        const float3 bump =
+            isAveraged ? BlendNormalsAverage(mainNormal, detailNormal) : BlendNormals(mainNormal, detailNormal);
         const float3 binormal =
             CreateBinormal(i.normal, i.tangent.xyz(), i.tangent.w, object.unity_WorldTransformParams.w);
-        i.normal = TangentSpaceToWorld(bump, i.tangent.xyz(), binormal, i.normal);
+        return TangentSpaceToWorld(bump, i.tangent.xyz(), binormal, i.normal);
     }
 
+    // As matte as can be, or as a mirror that is rough from some level of the environment on.
     float4 operator()(Interpolators i) const {
-        InitializeFragmentNormal(i);
-        if constexpr (!MIRROR) return float4(ShadeSH9(light, i.normal) * exposure, 1);
-        const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
-        const Float level = levelOfRoughness(roughness, levels);
-        return float4(texCUBElod(environment, float4(reflect(-viewDir, i.normal), level)).rgb() * exposure, 1);
+        const float3 normal = NormalOf(i), viewDir = normalize(worldSpaceCameraPos - i.worldPos);
+        if constexpr (!MIRROR) return float4(ShadeSH9(light, normal) * exposure, 1);
+        return float4(texCUBE(environment, reflect(-viewDir, normal)).rgb() * exposure, 1);
     }
 };
 
-template <Normals NORMALS, bool MIRROR>
-void DrawCell(const Scene& s, int column, int row, Float roughness) {
-    s.cutCell(column, 4, row, 2);
-    for (const Object& o : s.objects) {
-        MyFragmentProgram<NORMALS, MIRROR> fragment = s.uniforms(o.worldFromObject);
-        fragment.roughness = roughness;
-        s.draw(*o.mesh, MyVertexProgram(s.uniforms(o.worldFromObject)), fragment);
-    }
+struct Exaggerated : Uniforms {
+    Float exaggeration = number("exaggeration", 4.0f, {1, 100}, "of the differences");
+};
+
+// What 1.16's wrong normals change.
+template <bool MIRROR>
+struct ShowDifference : Exaggerated {
+    MyFragmentProgram<MIRROR> right = {}, wrong = {};
+
+    float4 operator()(Interpolators i) const { return float4(abs(right(i).rgb() - wrong(i).rgb()) * exaggeration, 1); }
+};
+
+template <bool MIRROR>
+MyFragmentProgram<MIRROR> Program(const Uniforms& uniforms, float roughness) {
+    MyFragmentProgram<MIRROR> program = uniforms;
+    program.normalMap.minLod = program.detailNormalMap.minLod = program.bumpLevel;
+    // The finest level that counts: a pixel that sees more of the surroundings takes a coarser one.
+    const int levels = program.environment.texture != nullptr ? program.environment.texture->levelCount() : 1;
+    program.environment.minLod = levelOfRoughness(roughness, levels)[0];
+    return program;
+}
+
+template <bool MIRROR>
+void DrawBesideDifference(const Scene& s, int column) {
+    const Uniforms uniforms = s.uniforms();
+    ShowDifference<MIRROR> difference = uniforms;
+    difference.right = difference.wrong = Program<MIRROR>(uniforms, 0.0f);
+    difference.wrong.isAveraged = true;
+    s.cutCell(column, 4, 1, 2);
+    s.draw(s.mesh, MyVertexProgram(uniforms), difference.right);
+    s.cutCell(column + 1, 4, 1, 2);
+    s.draw(s.mesh, MyVertexProgram(uniforms), difference);
 }
 
 }  // namespace
@@ -87,20 +102,21 @@ Stage beyond_09_bumpy_reflections() {
     return {.title = "Bumpy reflections",
             .section = "Blinn and Newell 1976; Karis 2013; Rendering 8",
             .news = "Normal maps in a mirror, by roughness; and normals that only a mirror shows to be wrong.",
-            .uniforms = declared<MyFragmentProgram<Normals::whiteout, true>>(),
+            .uniforms = declared<MyFragmentProgram<true>, Exaggerated>(),
             .mesh = "sphere",
-            .camera = {.position = {-0.9f, 0.8f, -2.7f}},
+            .camera = {.position = {-0.9f, 0.8f, -2.95f}},
             .draw = [](const Scene& s) {
                 for (int column = 0; column < 4; ++column) {
+                    s.cutCell(column, 4, 0, 2);
                     const float roughness = static_cast<float>(column) * 0.25f;
-                    DrawCell<Normals::whiteout, true>(s, column, 0, roughness);
+                    s.draw(s.mesh, MyVertexProgram(s.uniforms()), Program<true>(s.uniforms(), roughness));
                 }
                 s.labelColumns({"roughness 0", "0.25", "0.5", "0.75"}, 0, 2);
-                DrawCell<Normals::whiteout, false>(s, 0, 1, 0.0f);
-                DrawCell<Normals::approximateRoot, false>(s, 1, 1, 0.0f);
-                DrawCell<Normals::whiteout, true>(s, 2, 1, 0.0f);
-                DrawCell<Normals::approximateRoot, true>(s, 3, 1, 0.0f);
-                s.labelColumns({"matte", "z = 1 - dot / 2", "mirror", "z = 1 - dot / 2"}, 1, 2);
+                DrawBesideDifference<false>(s, 0);
+                DrawBesideDifference<true>(s, 2);
+                const Exaggerated shown = s.uniforms();
+                const std::string error = "1.16's error x " + shortNumber(shown.exaggeration[0]);
+                s.labelColumns({"matte", error, "mirror", error}, 1, 2);
             }};
 }
 

@@ -140,7 +140,7 @@ glm::vec3 courtyardRadiance(const glm::vec3& d)
 
 namespace {
 
-constexpr int kSide = 128, kSamples = 4;  // of a face in texels, and of a texel in each direction
+constexpr int kSide = 256, kSamples = 3;  // of a face in texels, and of a texel in each direction
 
 std::shared_ptr<const Environment> made()
 {
@@ -170,10 +170,11 @@ std::shared_ptr<const Environment> made()
             }
         }
     });
-    const CubeMap radiance = *CubeMap::fromPicture(std::move(strip), ColorSpace::linear);
-    ImageFloat levels = *prefilteredEnvironment(radiance, {.side = kSide, .samples = 128}, run);
+    CubeMap radiance = *CubeMap::fromPicture(std::move(strip), ColorSpace::linear);
+    ImageFloat levels = *prefilteredEnvironment(radiance, {.side = 128, .samples = 128}, run);
+    const SphericalHarmonics irradiance = irradianceOf(radiance);
     return std::make_shared<Environment>(
-        Environment{*CubeMap::fromPicture(std::move(levels), ColorSpace::linear), irradianceOf(radiance)});
+        Environment{std::move(radiance), *CubeMap::fromPicture(std::move(levels), ColorSpace::linear), irradiance});
 }
 
 }  // namespace

@@ -139,6 +139,11 @@ sampler2D Uniforms::emission(const char* file) const
     return source->texture(TextureSlot::emission, file, {});
 }
 
+samplerCUBE Uniforms::radiance() const
+{
+    const Environment* environment = source->environment();
+    return {.texture = environment != nullptr ? &environment->radiance : nullptr};
+}
 samplerCUBE Uniforms::reflections() const
 {
     const Environment* environment = source->environment();
