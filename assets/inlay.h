@@ -21,8 +21,9 @@ inline Inlay inlayAt(int x, int y)
     const float ragged = 3.0f * fractal(u, v, 24, 24, 3, 0.6f, 211);
     const float outside = outsideOfBox(place.x, place.y, kBrickWidth / 2 - 6, kBrickHeight / 2 - 6, 8) + ragged;
     const float stroke = fromLetter(place.x, place.y);
+    const bool glows = place.brick % 4 == 0 || place.brick % 4 == 3;  // one of each row, from row to row the other one
     return {1.0f - smoothstep(-8.0f, 0.0f, outside), 1.0f - smoothstep(7.5f, 9.0f, stroke),
-            place.brick % 2 == 0 ? 1.0f - smoothstep(2.0f, 4.5f, stroke) : 0.0f};
+            glows ? 1.0f - smoothstep(2.0f, 4.5f, stroke) : 0.0f};
 }
 
 inline Colour inlayColour(int x, int y)

@@ -14,8 +14,8 @@ struct VertexData {
 
 struct Interpolators {
     SV_POSITION position;
-    TEXCOORD<0, float3> normal;
-    TEXCOORD<1, float3> worldPos;
+    TEXCOORD<0, float3> normal;    // new
+    TEXCOORD<1, float3> worldPos;  // new
 };
 
 struct MyVertexProgram : Uniforms {
@@ -28,43 +28,43 @@ struct MyVertexProgram : Uniforms {
     }
 };
 
-struct Surrounded : Uniforms {
-    samplerCUBE environment = radiance();
-    Float level = number("level", 5.0f, {0, 8}, "of the cube map, in the second and third picture");
-    Float exposure = number("exposure", 0.8f, {0, 8}, "what all light is multiplied by");
+struct Surrounded : Uniforms {                                                                        // new
+    samplerCUBE environment = radiance();                                                             // new
+    Float level = number("level", 5.0f, {0, 8}, "of the cube map, in the second and third picture");  // new
+    Float exposure = number("exposure", 0.8f, {0, 8}, "what all light is multiplied by");             // new
 
-    float4 ColorIn(const float3& direction) const {
-        return float4(texCUBElod(environment, float4(direction, level)).rgb() * exposure, 1);
+    float4 ColorIn(const float3& direction) const {                                            // new
+        return float4(texCUBElod(environment, float4(direction, level)).rgb() * exposure, 1);  // new
     }
 };
 
 // Where the ray of sight goes on from a mirror.
-struct MirrorProgram : Surrounded {
+struct MirrorProgram : Surrounded {  // new
     float4 operator()(Interpolators i) const {
-        const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);
-        return ColorIn(reflect(-viewDir, normalize(i.normal)));
+        const float3 viewDir = normalize(worldSpaceCameraPos - i.worldPos);  // new
+        return ColorIn(reflect(-viewDir, normalize(i.normal)));              // new
     }
 };
 
 // Where it goes if nothing is in its way.
-struct SkyProgram : Surrounded {
-    float4 operator()(Interpolators i) const { return ColorIn(i.worldPos - worldSpaceCameraPos); }
+struct SkyProgram : Surrounded {                                                                    // new
+    float4 operator()(Interpolators i) const { return ColorIn(i.worldPos - worldSpaceCameraPos); }  // new
 };
 
-template <class FragmentProgram>
+template <class FragmentProgram>  // new
 void DrawSurrounded(const Scene& s, const Object& o, bool isSharp, bool seamless, const RenderState& state = {}) {
-    FragmentProgram fragment = s.uniforms(o.worldFromObject);
-    fragment.environment.seamless = seamless;
-    if (isSharp) fragment.level = 0.0f;
-    s.draw(*o.mesh, MyVertexProgram(s.uniforms(o.worldFromObject)), fragment, state);
+    FragmentProgram fragment = s.uniforms(o.worldFromObject);                          // new
+    fragment.environment.seamless = seamless;                                          // new
+    if (isSharp) fragment.level = 0.0f;                                                // new
+    s.draw(*o.mesh, MyVertexProgram(s.uniforms(o.worldFromObject)), fragment, state);  // new
 }
 
-void DrawColumn(const Scene& s, int column, bool isSharp, bool seamless) {
-    s.cutCell(column, 3);
+void DrawColumn(const Scene& s, int column, bool isSharp, bool seamless) {  // new
+    s.cutCell(column, 3);                                                   // new
     // A box so large that the camera is in its middle, seen from inside.
     const glm::mat4 around = translation(firstLane(s.uniforms().worldSpaceCameraPos)) * scaling(glm::vec3(50.0f));
-    DrawSurrounded<SkyProgram>(s, {&primitive("cube"), around}, isSharp, seamless, {.cull = Cull::front});
-    for (const Object& o : s.objects) DrawSurrounded<MirrorProgram>(s, o, isSharp, seamless);
+    DrawSurrounded<SkyProgram>(s, {&primitive("cube"), around}, isSharp, seamless, {.cull = Cull::front});  // new
+    for (const Object& o : s.objects) DrawSurrounded<MirrorProgram>(s, o, isSharp, seamless);               // new
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ struct MyFragmentProgram : DetailedMarble {
     samplerCUBE environment = reflections();
     SphericalHarmonics light = irradiance();
     Float bumpScale = number("bumpScale", 0.2f, {-32, 32}, "the bumps' strength; 1: as the map was made");
-    Float detailBumpScale = number("detailBumpScale", 0.1f, {-32, 32}, "of the detail's bumps");
+    Float detailBumpScale = number("detailBumpScale", 0.02f, {-32, 32}, "of the detail's bumps");
     float bumpLevel = number("bumpLevel", 1.0f, {0, 8}, "finest level of the normal maps: the higher, the smoother");
     Float exposure = number("exposure", 0.8f, {0, 8}, "what all light is multiplied by");
     bool isAveraged = false;  // as in 1.16
@@ -63,13 +63,14 @@ struct MyFragmentProgram : DetailedMarble {
 };
 
 struct Exaggerated : Uniforms {
-    Float exaggeration = number("exaggeration", 4.0f, {1, 100}, "of the differences");
+    Float exaggeration = number("exaggeration", 2.0f, {1, 100}, "of the differences");
 };
 
 // What 1.16's wrong normals change.
 template <bool MIRROR>
-struct ShowDifference : Exaggerated {
-    MyFragmentProgram<MIRROR> right = {}, wrong = {};
+struct ShowDifference {
+    MyFragmentProgram<MIRROR> right, wrong;
+    Float exaggeration;
 
     float4 operator()(Interpolators i) const { return float4(abs(right(i).rgb() - wrong(i).rgb()) * exaggeration, 1); }
 };
@@ -87,11 +88,11 @@ MyFragmentProgram<MIRROR> Program(const Uniforms& uniforms, float roughness) {
 template <bool MIRROR>
 void DrawBesideDifference(const Scene& s, int column) {
     const Uniforms uniforms = s.uniforms();
-    ShowDifference<MIRROR> difference = uniforms;
-    difference.right = difference.wrong = Program<MIRROR>(uniforms, 0.0f);
+    const MyFragmentProgram<MIRROR> right = Program<MIRROR>(uniforms, 0.0f);
+    ShowDifference<MIRROR> difference = {right, right, Exaggerated(uniforms).exaggeration};
     difference.wrong.isAveraged = true;
     s.cutCell(column, 4, 1, 2);
-    s.draw(s.mesh, MyVertexProgram(uniforms), difference.right);
+    s.draw(s.mesh, MyVertexProgram(uniforms), right);
     s.cutCell(column + 1, 4, 1, 2);
     s.draw(s.mesh, MyVertexProgram(uniforms), difference);
 }

@@ -1,4 +1,4 @@
-// 5.16 Displacement: Cook 1984; Blinn 1978
+// 5.16 Displacement: Cook 1984
 // New: the relief as geometry, and how far from it each of 5.11 to 5.14 is: in distance, and in angle.
 // Was: methods that move a picture on a flat quad (5.15).
 #include "common/false_color.h"
@@ -147,7 +147,7 @@ Stage beyond_16_displacement() {
             .section = "Cook 1984",
             .news = "The relief as geometry, and the distance and the angle to it of 5.11 to 5.14.",
             .uniforms = declared<MyFragmentProgram<ParallaxMethod::relief, true>, Cells>(),
-            .camera = {.position = {-0.6f, 0.97f, -2.3f}, .target = {0.0f, -0.03f, 0.0f}, .fieldOfView = 46.0f},
+            .camera = {.position = {-0.55f, 1.0f, -2.4f}, .target = {0.05f, -0.03f, 0.0f}, .fieldOfView = 46.0f},
             .draw = [](const Scene& s) {
                 const sampler2D truth = SeenBy<ParallaxMethod::none>(s);
                 const Relief relief = s.uniforms();

@@ -36,9 +36,8 @@ Expected<std::shared_ptr<const Environment>> chooseEnvironment(const std::string
     const Expected<std::string> path = choose("environment", input, file);
     if (!path) return tl::unexpected(path.error());
     if (path->empty()) return nullptr;
-    return readEnvironment(*path, 0).map([](Environment&& read) {
-        return std::make_shared<const Environment>(std::move(read));
-    });
+    return readEnvironment(*path, 0).map(
+        [](Environment&& read) { return std::make_shared<const Environment>(std::move(read)); });
 }
 
 // A picture to be loaded, and where its texture goes.
@@ -250,8 +249,11 @@ sampler2D Scene::texture(TextureSlot slot, const char*, const ImportSettings&) c
 {
     const Texture* const loaded = inputs.textures[slot].get();
     const bool normals = slot == TextureSlot::normal || slot == TextureSlot::detailNormal;
-    const bool factor = slot == TextureSlot::albedo || slot == TextureSlot::mask || slot == TextureSlot::emission;
-    const Texture& missing = factor ? Texture::white() : normals ? Texture::flatNormal() : Texture::grey();
+    const bool factor = slot == TextureSlot::albedo || slot == TextureSlot::mask;
+    const Texture& missing = factor                          ? Texture::white()
+                             : normals                       ? Texture::flatNormal()
+                             : slot == TextureSlot::emission ? Texture::black()
+                                                             : Texture::grey();
     return {.texture = loaded != nullptr ? loaded : &missing};
 }
 
