@@ -39,7 +39,7 @@ struct MyFragmentProgram : DetailedMarble {
     samplerCUBE environment = reflections();
     SphericalHarmonics light = irradiance();
     Float bumpScale = number("bumpScale", 0.2f, {-32, 32}, "the bumps' strength; 1: as the map was made");
-    Float detailBumpScale = number("detailBumpScale", 0.02f, {-32, 32}, "of the detail's bumps");
+    Float detailBumpScale = number("detailBumpScale", 0.0f, {-32, 32}, "of the detail's bumps");
     float bumpLevel = number("bumpLevel", 1.0f, {0, 8}, "finest level of the normal maps: the higher, the smoother");
     Float exposure = number("exposure", 0.8f, {0, 8}, "what all light is multiplied by");
     bool isAveraged = false;  // as in 1.16

@@ -65,7 +65,8 @@ struct MyFragmentProgram : Relief {
     Float steps = number("steps", 10.0f, {1, 128}, "layers of 5.12 to 5.14");
 
     float4 operator()(Interpolators i) const {
-        const float2 dx = ddx(i.uv), dy = ddy(i.uv);
+        // Errors are those of the methods, not of filters: of the finest level.
+        const float2 dx = PICTURE ? ddx(i.uv) : float2(0.0f), dy = PICTURE ? ddy(i.uv) : float2(0.0f);
         i.uv += Parallax{heightMap, parallaxStrength, parallaxBias, steps}.Offset<METHOD>(i.uv, i.viewDir, dx, dy);
         float3 normal = normalize(UnpackScaleNormal(tex2Dgrad(normalMap, i.uv, dx, dy), bumpScale));
         if constexpr (METHOD == ParallaxMethod::none) normal = normalize(i.normal);
