@@ -128,7 +128,7 @@ TEST_CASE("SampleCmp: of a cube, each lane asks the face that its direction pass
             const float3 d = cubeDirection(face[lane], 2.0f * u - 1.0f, 2.0f * v - 1.0f) * 4.0f;  // any length
             for (int c = 0; c < 3; ++c) direction[c].set(lane, d[c][0]);
         }
-        const Float reference = random(0.0f, 1.0f);
+        const Float reference = static_cast<float>(random.between(0, 1000)) / 1000.0f;
         const Float share = SampleCmp(s, direction, reference);
         for (int lane = 0; lane < kLanes; ++lane) {
             const SamplerComparisonState one = {s.faces[static_cast<std::size_t>(face[lane])], s.comparison,

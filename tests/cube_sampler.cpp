@@ -244,9 +244,9 @@ TEST_CASE("cube_sampler: without seamless filters a face is a picture of its own
         const CubeMap map = noiseCube(format, side);
         samplerCUBE s{.texture = &map, .filter = Filter::bilinear};
         for (int i = 0; i < trials(500); ++i) {
-            // Multiples of 1/64 of a texel: weights are exact.
-            const auto place = [&random] { return (2.0 * random.between(0, 256) - 256.0) / 256.0; };
-            const OnFace at = {random.between(0, 5), place() * 0.999, place() * 0.999};
+            // Multiples of 1/128 of a texel: weights are exact.
+            const auto place = [&random] { return static_cast<double>(random.bits() % 511) / 256.0 - 255.0 / 256.0; };
+            const OnFace at = {static_cast<int>(random.bits() % 6), place(), place()};
             s.seamless = false;
             const float4 color = lodSample(s, directionOf(at));
             const double x = (at.s + 1.0) * 0.5 * side - 0.5, y = (1.0 - at.t) * 0.5 * side - 0.5;
