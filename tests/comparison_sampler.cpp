@@ -108,7 +108,8 @@ TEST_CASE("SampleCmp: NaN, infinities, one texel, and no texture at all")
 TEST_CASE("SampleCmp: of a cube, each lane asks the face that its direction passes through")
 {
     std::vector<Texture> faces;
-    for (int face = 0; face < kCubeFaces; ++face) faces.push_back(randomTexture(TexelFormat::r32Float, 16, 16));
+    for (std::uint32_t face = 0; face < kCubeFaces; ++face)
+        faces.push_back(randomTexture(TexelFormat::r32Float, 16, 16, face + 1));
     SamplerCubeComparisonState s;
     for (std::size_t face = 0; face < faces.size(); ++face) s.faces[face] = &faces[face];
     Random random(5);
