@@ -141,8 +141,8 @@ struct Uniforms
     sampler2D mask(const char* file) const;
     sampler2D emission(const char* file) const;
 
-    // What surrounds the scene: as it is, with levels that are averages; as surfaces mirror it, with levels by roughness
-    // (shading/environment.h); and as it lights matte ones. The courtyard (courtyard.h), or --environment.
+    // What surrounds the scene: as it is, with levels that are averages; as surfaces mirror it, with levels by
+    // roughness (shading/environment.h); and as it lights matte ones. The courtyard (courtyard.h), or --environment.
     samplerCUBE radiance() const;
     samplerCUBE reflections() const;
     SphericalHarmonics irradiance() const;
