@@ -1,5 +1,6 @@
 // Makes the textures of the samples: marble-albedo.png (sRGB colour), marble-heights.png (linear grey, 0 in the
-// cracks), marble-detail.png (sRGB grey about 0.5), and bricks-albedo.png and bricks-heights.png (bricks.h). 512 x 512
+// cracks), marble-detail.png (sRGB grey about 0.5), bricks-albedo.png and bricks-heights.png (bricks.h), and
+// inlay-albedo.png, inlay-mask.png and inlay-emission.png (inlay.h). 512 x 512
 // pixels each, tileable, the same bytes on every machine. Usage: make_textures OUTPUT_DIR
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "bricks.h"
+#include "inlay.h"
 #include "noise.h"
 #include "texture/image.h"
 
@@ -179,20 +181,34 @@ std::uint8_t toByte(float value)
     return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f);
 }
 
-// Writes sRGB or grey codes; returns whether it worked and says why not.
-bool write(const std::filesystem::path& path, const std::function<Colour(int x, int y)>& colourAt)
+using ColourAndAlpha = std::array<float, 4>;
+
+// Writes codes; returns whether it worked and says why not.
+bool writeWithAlpha(const std::filesystem::path& path, const std::function<ColourAndAlpha(int x, int y)>& colourAt)
 {
     std::vector<std::uint8_t> pixels;
     pixels.reserve(static_cast<std::size_t>(kSize) * kSize * 4);
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
             for (const float channel : colourAt(x, y)) pixels.push_back(toByte(channel));
-            pixels.push_back(255);
         }
     }
     const relief::Expected<void> written = relief::writePng(path, kSize, kSize, pixels);
     if (!written) std::fprintf(stderr, "make_textures: %s\n", written.error().message.c_str());
     return written.has_value();
+}
+
+bool write(const std::filesystem::path& path, const std::function<Colour(int x, int y)>& colourAt)
+{
+    return writeWithAlpha(path, [&colourAt](int x, int y) -> ColourAndAlpha {
+        const Colour colour = colourAt(x, y);
+        return {colour[0], colour[1], colour[2], 255.0f};
+    });
+}
+
+ColourAndAlpha codesOf(const Mask& mask)
+{
+    return {255.0f * mask.metallic, 255.0f * mask.occlusion, 255.0f * mask.detail, 255.0f * mask.smoothness};
 }
 
 Colour grey(float code)
@@ -223,6 +239,9 @@ int main(int argc, char** argv)
         write(folder / "marble-heights.png", [&](int x, int y) { return grey(255.0f * heightAt(fields, x, y)); }) &&
         write(folder / "marble-detail.png", [&](int x, int y) { return grey(127.5f + (grain.at(x, y) - mean)); }) &&
         write(folder / "bricks-albedo.png", [](int x, int y) { return brickColour(x, y); }) &&
-        write(folder / "bricks-heights.png", [](int x, int y) { return grey(255.0f * brickHeight(x, y)); });
+        write(folder / "bricks-heights.png", [](int x, int y) { return grey(255.0f * brickHeight(x, y)); }) &&
+        write(folder / "inlay-albedo.png", [](int x, int y) { return inlayColour(x, y); }) &&
+        writeWithAlpha(folder / "inlay-mask.png", [](int x, int y) { return codesOf(inlayMask(x, y)); }) &&
+        write(folder / "inlay-emission.png", [](int x, int y) { return inlayEmission(x, y); });
     return written ? 0 : 2;
 }

@@ -10,6 +10,7 @@
 #include "common/camera.h"
 #include "common/render.h"
 #include "pipeline_fixture.h"
+#include "texture/cube_face.h"
 
 using namespace fixture;
 using namespace relief::samples;
@@ -49,6 +50,31 @@ TEST_CASE("camera: lookAt straight up or down still has a right and an up")
         CHECK(glm::determinant(lookAt({0, 0, 0}, {0, 0, y}, {0, 0, 1})) == doctest::Approx(1.0f));
     }
     CHECK(offBy(lookAt({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), {1, 0, 0}, {0, 1, 0}) < 1e-7f);
+}
+
+TEST_CASE("camera: six cameras through the faces of a cube see every direction once, turned as cube maps are")
+{
+    const glm::vec3 position(0.5f, -2.0f, 3.0f);
+    const glm::mat4 projection = perspective(90, 1, 0.25f, 16);
+    for (int face = 0; face < kCubeFaces; ++face) {
+        CAPTURE(face);
+        const glm::mat4 clipFromWorld = projection * lookThroughFace(position, face);
+        for (const float s : {-0.75f, 0.0f, 0.5f}) {
+            for (const float t : {-0.5f, 0.25f, 0.75f}) {
+                const float3 d = cubeDirection(face, s, t);
+                const glm::vec4 p = clipFromWorld * glm::vec4(position + firstLane(d) * 2.0f, 1.0f);
+                CHECK(p.x / p.w == doctest::Approx(static_cast<double>(s)).epsilon(1e-5));
+                CHECK(p.y / p.w == doctest::Approx(static_cast<double>(t)).epsilon(1e-5));
+                int seen = 0;
+                for (int other = 0; other < kCubeFaces; ++other) {
+                    const glm::vec4 q =
+                        projection * lookThroughFace(position, other) * glm::vec4(position + firstLane(d) * 2.0f, 1.0f);
+                    seen += q.w > 0.0f && std::abs(q.x) < q.w && std::abs(q.y) < q.w;
+                }
+                CHECK(seen == 1);
+            }
+        }
+    }
 }
 
 TEST_CASE("camera: perspective of 90 degrees has the frustum's corners at -1 and 1, depth from 0 to 1")

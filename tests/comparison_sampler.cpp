@@ -104,3 +104,57 @@ TEST_CASE("SampleCmp: NaN, infinities, one texel, and no texture at all")
     CHECK(share(0.5f, 1.0f) == 1.0f);
     CHECK(share(0.5f, 1.5f) == 0.0f);
 }
+
+TEST_CASE("SampleCmp: of a cube, each lane asks the face that its direction passes through")
+{
+    std::vector<Texture> faces;
+    for (std::uint32_t face = 0; face < kCubeFaces; ++face)
+        faces.push_back(randomTexture(TexelFormat::r32Float, 16, 16, face + 1));
+    SamplerCubeComparisonState s;
+    for (std::size_t face = 0; face < faces.size(); ++face) s.faces[face] = &faces[face];
+    Random random(5);
+    int different = 0;
+    for (int trial = 0; trial < trials(300); ++trial) {
+        int face[kLanes];
+        float2 uv;
+        float3 direction;
+        for (int lane = 0; lane < kLanes; ++lane) {
+            face[lane] = random.between(0, 5);
+            different += face[lane] != face[0];
+            // Multiples of 1/64 of a texel, not on the edge itself, which two faces share.
+            const float u = static_cast<float>(random.between(1, 1023)) / 1024.0f;
+            const float v = static_cast<float>(random.between(1, 1023)) / 1024.0f;
+            uv.x.set(lane, u);
+            uv.y.set(lane, v);
+            const float3 d = cubeDirection(face[lane], 2.0f * u - 1.0f, 2.0f * v - 1.0f) * 4.0f;  // any length
+            for (int c = 0; c < 3; ++c) direction[c].set(lane, d[c][0]);
+        }
+        const Float reference = static_cast<float>(random.between(0, 1000)) / 1000.0f;
+        const Float share = SampleCmp(s, direction, reference);
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const SamplerComparisonState one = {s.faces[static_cast<std::size_t>(face[lane])], s.comparison,
+                                                AddressMode::clamp, AddressMode::clamp};
+            CHECK(share[lane] == SampleCmp(one, uv, reference)[lane]);
+        }
+    }
+    CHECK(different > 100);
+
+    const float3 nowhere(Float(0.0f));
+    const Float share = SampleCmp(s, nowhere, 0.5f);
+    CHECK((share[0] >= 0.0f && share[0] <= 1.0f));
+    CHECK(SampleCmp(SamplerCubeComparisonState{}, nowhere, 1.0f)[0] == 1.0f);
+    CHECK(SampleCmp(SamplerCubeComparisonState{}, nowhere, 1.5f)[0] == 0.0f);
+}
+
+TEST_CASE("SampleCmp: of a cube, every lane that counts is counted once")
+{
+    const ShadingScope scope;
+    float3 direction;
+    for (int lane = 0; lane < kLanes; ++lane) {
+        const float3 d = cubeDirection(lane % kCubeFaces, 0.25f, 0.5f);
+        for (int c = 0; c < 3; ++c) direction[c].set(lane, d[c][0]);
+    }
+    SampleCmp(SamplerCubeComparisonState{}, direction, 0.5f);
+    CHECK(shading.fetches.bilinear == static_cast<std::uint64_t>(kLanes));
+    CHECK(shading.activeLanes == kAllLanes);
+}

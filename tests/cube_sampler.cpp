@@ -234,3 +234,39 @@ TEST_CASE("cube_sampler: the same bits for every number of lanes")
     }
     CHECK(hash == 2769588976239679301u);
 }
+
+TEST_CASE("cube_sampler: without seamless filters a face is a picture of its own, clamped at its edges")
+{
+    Random random(44);
+    int across = 0;
+    for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::rgba16, TexelFormat::rgba32Float}) {
+        const int side = 4;
+        const CubeMap map = noiseCube(format, side);
+        samplerCUBE s{.texture = &map, .filter = Filter::bilinear};
+        for (int i = 0; i < trials(500); ++i) {
+            // Multiples of 1/128 of a texel: weights are exact.
+            const auto place = [&random] { return static_cast<double>(random.bits() % 511) / 256.0 - 255.0 / 256.0; };
+            const OnFace at = {static_cast<int>(random.bits() % 6), place(), place()};
+            s.seamless = false;
+            const float4 color = lodSample(s, directionOf(at));
+            const double x = (at.s + 1.0) * 0.5 * side - 0.5, y = (1.0 - at.t) * 0.5 * side - 0.5;
+            const int i0 = static_cast<int>(std::floor(x)), j0 = static_cast<int>(std::floor(y));
+            const auto texel = [&](int dx, int dy, int channel) {
+                const int a = std::clamp(i0 + dx, 0, side - 1), b = std::clamp(j0 + dy, 0, side - 1);
+                return static_cast<double>(map.texel(0, at.face, a, b)[channel]);
+            };
+            const double fx = x - i0, fy = y - j0;
+            for (int c = 0; c < 4; ++c) {
+                const double expected = (texel(0, 0, c) * (1.0 - fx) + texel(1, 0, c) * fx) * (1.0 - fy) +
+                                        (texel(0, 1, c) * (1.0 - fx) + texel(1, 1, c) * fx) * fy;
+                CHECK(std::abs(static_cast<double>(color[c][0]) - expected) < 6e-4);
+            }
+            s.seamless = true;
+            const bool isInside = i0 >= 0 && j0 >= 0 && i0 < side - 1 && j0 < side - 1;
+            const double difference = maxDifference(color, lodSample(s, directionOf(at)));
+            if (isInside) CHECK(difference == 0.0);
+            across += !isInside && difference > 0.01;
+        }
+    }
+    CHECK(across > 50);
+}

@@ -120,6 +120,24 @@ TEST_CASE("primitives: the quad is Unity's")
     CHECK(quad.tangents[2] == glm::vec4(1, 0, 0, -1));
 }
 
+TEST_CASE("primitives: the grid is the quad in cells")
+{
+    const Mesh quad = makeQuad(), one = makeGrid(1, 1), grid = makeGrid(4, 3);
+    CHECK(one.positions == quad.positions);
+    CHECK(one.uvs == quad.uvs);
+    CHECK(one.tangents == quad.tangents);
+    CHECK(one.indices == quad.indices);
+    checkMesh(grid);
+    CHECK(grid.positions.size() == 5 * 4);
+    CHECK(grid.indices.size() == 4 * 3 * 6);
+    for (std::size_t i = 0; i < grid.positions.size(); ++i) {
+        CHECK(grid.positions[i] == glm::vec3(grid.uvs[i].x - 0.5f, grid.uvs[i].y - 0.5f, 0.0f));
+        CHECK(grid.normals[i] == glm::vec3(0, 0, -1));
+    }
+    CHECK(grid.uvs[7] == glm::vec2(0.5f, 1.0f / 3.0f));
+    CHECK(hashOf(makeGrid(0, -3)) == hashOf(makeGrid(1, 1)));
+}
+
 TEST_CASE("primitives: the cube has six upright faces and is closed")
 {
     const Mesh cube = makeCube();

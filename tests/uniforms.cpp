@@ -4,6 +4,9 @@
 
 #include "common/render.h"
 #include "pipeline_fixture.h"
+#include "shading/environment.h"
+#include "temporary_folder.h"
+#include "texture/image.h"
 
 namespace {
 
@@ -116,4 +119,65 @@ TEST_CASE("uniforms: every stage lists what its programs declare")
         CAPTURE(stage.id);
         CHECK(problemOf(stage) == "");
     }
+}
+
+TEST_CASE("uniforms: surroundings, masks and emission are inputs like others")
+{
+    struct Mirror : Uniforms
+    {
+        samplerCUBE sharp = radiance();
+        samplerCUBE rough = reflections();
+        SphericalHarmonics matte = irradiance();
+        sampler2D maskMap = mask(kNone);
+        sampler2D emissionMap = emission(kNone);
+    };
+    Stage stage{.title = "test", .uniforms = declared<Mirror>(), .mesh = "quad", .draw = [](const Scene&) {}};
+    CHECK(stage.inputs().textures[TextureSlot::environment].file == "courtyard");
+    CHECK(stage.inputs().textures[TextureSlot::mask].file == kNone);
+
+    stage.draw = [](const Scene& s) {
+        const Mirror mirror = s.uniforms();
+        CHECK(mirror.sharp.texture->side() == 256);
+        CHECK(mirror.rough.texture->levelCount() == prefilteredLevelCount(mirror.rough.texture->side()));
+        CHECK(mirror.emissionMap.texture == &Texture::black());
+        CHECK(mirror.maskMap.texture == &Texture::white());
+        // The sky is blue above, and matte light comes from there.
+        const float4 above = texCUBElod(mirror.sharp, {Float(0.0f), Float(1.0f), Float(0.0f), Float(0.0f)});
+        CHECK(above.z[0] > above.x[0]);
+        CHECK(ShadeSH9(mirror.matte, float3(0, 1, 0)).z[0] > ShadeSH9(mirror.matte, float3(0, -1, 0)).z[0]);
+    };
+    CHECK(problemOf(stage) == "");
+
+    const auto drawn = [&stage](const std::string& environment) {
+        InputFiles files;
+        files.textures[TextureSlot::environment] = environment;
+        const Expected<PreparedStage> prepared = PreparedStage::prepare(stage, {}, files);
+        if (!prepared) return prepared.error().message;
+        Framebuffer target = makeTarget(8, 8);
+        Frame frame(target, {1, kDefaultTileSize});
+        prepared->record(frame, 8, 8);
+        return prepared->problem(frame);
+    };
+    stage.draw = [](const Scene& s) {
+        const Mirror mirror = s.uniforms();
+        CHECK(mirror.sharp.texture == nullptr);
+        CHECK(ShadeSH9(mirror.matte, float3(0, 1, 0)).z[0] == 1.0f);
+    };
+    CHECK(drawn(kNone) == "");
+
+    const TemporaryFolder folder;
+    const std::string path = (folder.path / "sky.pfm").string();
+    REQUIRE(writePfm(path, 32, 16, std::vector<float>(32 * 16 * 3, 0.25f)));
+    stage.draw = [](const Scene& s) {
+        const Mirror mirror = s.uniforms();
+        CHECK(mirror.sharp.texture->side() == 8);
+        CHECK(mirror.rough.texture->texel(1, 2, 3, 3).y == 0.25f);
+    };
+    CHECK(drawn(path) == "");
+    CHECK(drawn(path + "x").find("sky.pfmx") != std::string::npos);
+
+    Stage plain{.title = "test", .uniforms = declared<Program>(), .mesh = "quad", .draw = [](const Scene&) {}};
+    InputFiles files;
+    files.textures[TextureSlot::environment] = path;
+    CHECK(PreparedStage::prepare(plain, {}, files).error().message.find("reads no environment") != std::string::npos);
 }

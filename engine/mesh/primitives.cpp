@@ -65,6 +65,13 @@ void appendGridCells(Mesh& mesh, std::size_t first, int cellsU, int cellsV)
     }
 }
 
+void clampCells(int& cellsAcross, int& cellsAlong)
+{
+    constexpr int kMaxCells = 1 << 23;
+    cellsAcross = std::clamp(cellsAcross, 1, 4096);
+    cellsAlong = std::clamp(cellsAlong, 1, std::min(4096, kMaxCells / cellsAcross));
+}
+
 // A side of the cube: where it looks, and where the picture's +u and +v point; tangent = cross(normal, binormal).
 struct Side
 {
@@ -149,6 +156,26 @@ Mesh makeQuad()
         appendVertex(mesh, {uv.x - 0.5f, uv.y - 0.5f, 0.0f}, front.normal, uv, front.tangent);
     }
     appendGridCells(mesh, 0, 1, 1);
+    return mesh;
+}
+
+Mesh makeGrid(int cellsX, int cellsY)
+{
+    const DefaultFloatingPoint environment;
+    clampCells(cellsX, cellsY);
+    Mesh mesh;
+    mesh.name = "grid";
+    const auto columns = static_cast<std::size_t>(cellsX), rows = static_cast<std::size_t>(cellsY);
+    reserve(mesh, (columns + 1) * (rows + 1), 2 * columns * rows);
+    const Side& front = kSides[0];
+    for (int y = 0; y <= cellsY; ++y) {
+        for (int x = 0; x <= cellsX; ++x) {
+            const glm::vec2 uv(static_cast<float>(x) / static_cast<float>(cellsX),
+                               static_cast<float>(y) / static_cast<float>(cellsY));
+            appendVertex(mesh, {uv.x - 0.5f, uv.y - 0.5f, 0.0f}, front.normal, uv, front.tangent);
+        }
+    }
+    appendGridCells(mesh, 0, cellsX, cellsY);
     return mesh;
 }
 
@@ -250,10 +277,8 @@ Mesh makeCubeSphere(int subdivisions)
 
 Mesh makeTerrain(int cellsX, int cellsZ)
 {
-    constexpr int kMaxCells = 1 << 23;
     const DefaultFloatingPoint environment;
-    cellsX = std::clamp(cellsX, 1, 4096);
-    cellsZ = std::clamp(cellsZ, 1, std::min(4096, kMaxCells / cellsX));
+    clampCells(cellsX, cellsZ);
     const auto columns = static_cast<std::size_t>(cellsX);
     const auto rows = static_cast<std::size_t>(cellsZ);
     Mesh mesh;

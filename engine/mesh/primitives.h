@@ -1,7 +1,7 @@
-// The shapes that need no file: quad, cube, two spheres and a terrain. All in object space, left-handed, Y up, front
-// faces clockwise, uv (0,0) in the lower left corner, with unit normals and with tangents along +u (mesh.h). The same
-// arguments give the same bits on every machine. Counts out of range are clamped, so
-// that no shape takes more than 640 MB.
+// The shapes that need no file: quad, grid, cube, two spheres and a terrain. All in object space, left-handed, Y up,
+// front faces clockwise, uv (0,0) in the lower left corner, with unit normals and with tangents along +u (mesh.h). The
+// same arguments give the same bits on every machine. Counts out of range are clamped, so that no shape takes more than
+// 640 MB.
 #pragma once
 
 #include "mesh/mesh.h"
@@ -10,6 +10,10 @@ namespace relief {
 
 // Unity's quad: 1 x 1 in the XY plane, centred at the origin, looking along -Z at a camera in front of it.
 Mesh makeQuad();
+
+// The same quad in cellsX x cellsY cells of two triangles, for programs that move its vertices. Cells are clamped as in
+// makeTerrain.
+Mesh makeGrid(int cellsX, int cellsY);
 
 // The unit cube, 24 vertices: every face shows the whole picture, upright on the four sides. Seen from the front (-Z),
 // the top and the bottom are unfolded upwards and downwards from the front face.

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "lanes/math.h"
+#include "texture/cube_face.h"
 
 namespace relief {
 
@@ -36,6 +37,12 @@ glm::mat4 lookAt(const glm::vec3& position, const glm::vec3& target, const glm::
             {right.y, upward.y, forward.y, 0.0f},
             {right.z, upward.z, forward.z, 0.0f},
             {-glm::dot(right, position), -glm::dot(upward, position), -glm::dot(forward, position), 1.0f}};
+}
+
+glm::mat4 lookThroughFace(const glm::vec3& position, int face)
+{
+    const CubeFaceAxes& axes = kCubeFaceAxes[static_cast<std::size_t>(face)];
+    return lookAt(position, position + glm::vec3(axes.middle), glm::vec3(axes.up));
 }
 
 glm::mat4 perspective(float fieldOfView, float aspect, float nearPlane, float farPlane)

@@ -15,6 +15,11 @@ namespace relief {
 // the camera looks along `up`, a horizontal axis takes its place. Not a number where target is position.
 glm::mat4 lookAt(const glm::vec3& position, const glm::vec3& target, const glm::vec3& up = {0.0f, 1.0f, 0.0f});
 
+// The same for a camera that looks through a face of the cube around it, 0..5, turned as cube maps are
+// (texture/cube_face.h): six pictures with perspective(90, 1, ...) show everything around `position`, and each of them
+// once.
+glm::mat4 lookThroughFace(const glm::vec3& position, int face);
+
 // clipFromView. The field of view is the vertical one, in degrees; aspect = width / height. Depth is 0 at the near
 // plane and 1 at the far plane, which may be at infinity.
 glm::mat4 perspective(float fieldOfView, float aspect, float nearPlane, float farPlane);

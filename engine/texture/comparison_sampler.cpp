@@ -61,4 +61,23 @@ Float SampleCmp(const SamplerComparisonState& s, const float2& uv, Float referen
     return withFetch(texture.format(), [&]<class Fetch>() { return compareIn<Fetch>(s, plain, uv, reference); });
 }
 
+Float SampleCmp(const SamplerCubeComparisonState& s, const float3& direction, Float reference)
+{
+    const CubeFaceOf at(direction);
+    const float3 place = at.components(direction);
+    const float2 uv = float2(place.x / place.z, place.y / place.z) * 0.5f + 0.5f;
+    const unsigned outside = shading.activeLanes;
+    Float share = 0.0f;
+    for (int face = 0; face < kCubeFaces; ++face) {
+        const Mask here = at.face() == face;
+        shading.activeLanes = outside & (here.bits() | kWatched);
+        if ((shading.activeLanes & kAllLanes) == 0) continue;
+        const SamplerComparisonState one = {s.faces[static_cast<std::size_t>(face)], s.comparison, AddressMode::clamp,
+                                            AddressMode::clamp};
+        share = select(here, SampleCmp(one, uv, reference), share);
+    }
+    shading.activeLanes = outside;
+    return share;
+}
+
 }  // namespace relief::inline RELIEF_WIDTH

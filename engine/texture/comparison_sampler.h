@@ -3,9 +3,12 @@
 // never the other way round, as the mean of two depths is the depth of nothing.
 #pragma once
 
+#include <array>
+
 #include "hlsl/compare.h"
 #include "hlsl/types.h"
 #include "texture/address.h"
+#include "texture/cube_face.h"
 #include "texture/texture.h"
 
 namespace relief::inline RELIEF_WIDTH {
@@ -23,5 +26,16 @@ struct SamplerComparisonState
 // these where all four agree. Of the finest level. A reference that is NaN passes no comparison but notEqual and
 // always.
 Float SampleCmp(const SamplerComparisonState& s, const float2& uv, Float reference);
+
+// Six textures that are a cube's faces (cube_face.h): a lamp's shadow map, one picture along each axis.
+struct SamplerCubeComparisonState
+{
+    std::array<const Texture*, kCubeFaces> faces = {};  // not owned; of a null texture each comparison is with 1
+    Compare comparison = Compare::lessEqual;            // reference `comparison` texel
+};
+
+// The same in a direction of any length, on the face that each lane's direction passes through. The 2x2 texels are of
+// one face: the weights end at its edge, where they repeat the last texel.
+Float SampleCmp(const SamplerCubeComparisonState& s, const float3& direction, Float reference);
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -22,7 +22,8 @@ struct CubePlace
 inline Pairs pairsOn(const CubePlace& place, const MipLevel& level)
 {
     const TextureSide& side = level.sideU();
-    const Int x = pairPosition(AddressMode::wrap, place.u, side), y = pairPosition(AddressMode::wrap, place.v, side);
+    const AddressMode mode = place.sampler.seamless ? AddressMode::wrap : AddressMode::clamp;
+    const Int x = pairPosition(mode, place.u, side), y = pairPosition(mode, place.v, side);
     return {x >> kSubtexelBits, y >> kSubtexelBits, x & kSubtexelMask, y & kSubtexelMask};
 }
 

@@ -2,7 +2,8 @@
 //
 // A direction has any length and is in the space that the cube map is in, the world's mostly: left-handed, y up. A NaN
 // component counts as 0, an infinite one as the largest number of its sign, and no direction at all, (0, 0, 0), is +z.
-// Of edges between faces nothing is seen (cube_map.h): the filters go on around them.
+// Of edges between faces nothing is seen (cube_map.h): the filters go on around them. Without `seamless` they end where
+// a face ends, as hardware's did before Direct3D 10.
 #pragma once
 
 #include "texture/cube_map.h"
@@ -18,6 +19,7 @@ struct samplerCUBE
     float lodBias = 0.0f;    // with the bias of texCUBEbias limited to -16..15.99
     float minLod = 0.0f;     // wins where it is above maxLod
     float maxLod = 1000.0f;  // beyond every level
+    bool seamless = true;    // false: each face is a picture of its own, clamped at its edges
 };
 
 // The colour in a direction. The level of detail comes from the differences to the neighbouring pixels' directions,

@@ -32,7 +32,10 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
         ->type_name("FILE");
     static constexpr PerTexture<const char*> kMeanings = {
         {"A picture (sRGB) in place of the albedo", "A height map", "A normal map (+Y), or its heights in grey",
-         "A detail albedo (sRGB)", "A detail normal map (+Y), or its heights"}};
+         "A detail albedo (sRGB)", "A detail normal map (+Y), or its heights",
+         "Metallic in red, occlusion in green, detail in blue, smoothness in alpha",
+         "Light that the surface gives (sRGB)",
+         "What surrounds the scene: a picture that import-environment wrote or takes"}};
     for (std::size_t i = 0; i < kTextureOptions.size(); ++i) {
         command.add_option(std::string("--") + kTextureOptions[i], options.files.textures[i], kMeanings[i])
             ->type_name("FILE");
@@ -174,8 +177,6 @@ Expected<void> renderWith(const CLI::App& command, const RenderOptions& options,
                                                    : program.renderScene;
     const std::string other = otherOption(
         command, {"--scene", "--environment", "--size", "--threads", "--camera", "--output", "--tile", "--samples"});
-    if (options.scene.empty() && !options.environment.empty())
-        return fail("--environment " + options.environment + ": surrounds a scene; name one with --scene FILE.glb");
     if (!options.scene.empty() && !other.empty()) return fail(other + ": render --scene does not take it");
     return function != nullptr ? function(options, output) : elsewhere("render");
 }
@@ -319,11 +320,8 @@ int runProgram(int argc, char** argv, const Program& program)
     addInputOptions(*command, options)->required(false);
     command
         ->add_option("--scene", options.scene,
-                     "A .gltf or .glb file in place of a stage; takes --size, --threads, --camera, --tile, --samples")
-        ->type_name("FILE");
-    command
-        ->add_option("--environment", options.environment,
-                     "With --scene: what surrounds it, a picture that import-environment wrote or takes")
+                     "A .gltf or .glb file in place of a stage; takes --environment, --size, --threads, --camera, "
+                     "--tile, --samples")
         ->type_name("FILE");
     command->add_option("-o,--output", output, "The file; default: the stage's name")->type_name("FILE.png");
     bool watch = false;

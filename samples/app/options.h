@@ -13,8 +13,7 @@ namespace relief::samples {
 struct RenderOptions
 {
     std::string stage;
-    std::string scene;        // of `render`: a .gltf or .glb file in place of a stage
-    std::string environment;  // with `scene`: a picture of what surrounds it
+    std::string scene;  // of `render`: a .gltf or .glb file in place of a stage
     std::string size = "960x540";
     int threads = 0;
     int tileSize = kDefaultTileSize, samples = 1;  // of `render`, `view` and `hash`

@@ -29,8 +29,8 @@ Expected<void> renderScene(const RenderOptions& options, const std::string& outp
     Frame frame(*target, {.threads = options.threads, .tileSize = options.tileSize});
     Surroundings light = usualSurroundings();
     std::optional<Environment> environment;
-    if (!options.environment.empty()) {
-        Expected<Environment> read = readEnvironment(options.environment, options.threads);
+    if (!options.files.textures[TextureSlot::environment].empty()) {
+        Expected<Environment> read = readEnvironment(options.files.textures[TextureSlot::environment], options.threads);
         if (!read) return tl::unexpected(read.error());
         environment = std::move(*read);
         light.sky = environment->irradiance;

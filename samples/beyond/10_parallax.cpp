@@ -16,43 +16,43 @@ struct VertexData {
 struct Interpolators {
     SV_POSITION position;
     TEXCOORD<0, float2> uv;
-    TEXCOORD<1, float3> viewDir;   // tangent space, not of unit length  // new
-    TEXCOORD<2, float3> lightDir;  // tangent space  // new
+    TEXCOORD<1, float3> viewDir;   // tangent space, not of unit length
+    TEXCOORD<2, float3> lightDir;  // tangent space
 };
 
-struct MyVertexProgram : ParallaxMaterial {  // new
+struct MyVertexProgram : ParallaxMaterial {
     Interpolators operator()(VertexData v) const {
         Interpolators i;
         i.position = UnityObjectToClipPos(object, v.position);
         i.uv = v.uv;
-        const float3 normal = UnityObjectToWorldNormal(object, v.normal);       // new
-        const float3 tangent = UnityObjectToWorldDir(object, v.tangent.xyz());  // new
+        const float3 normal = UnityObjectToWorldNormal(object, v.normal);
+        const float3 tangent = UnityObjectToWorldDir(object, v.tangent.xyz());
         const float3 binormal = CreateBinormal(normal, tangent, v.tangent.w, object.unity_WorldTransformParams.w);
-        const float3 view = worldSpaceCameraPos - mul(object.worldFromObject, v.position).xyz();         // new
-        i.viewDir = float3(dot(view, tangent), dot(view, binormal), dot(view, normal));                  // new
-        i.lightDir = float3(dot(light.dir, tangent), dot(light.dir, binormal), dot(light.dir, normal));  // new
+        const float3 view = worldSpaceCameraPos - mul(object.worldFromObject, v.position).xyz();
+        i.viewDir = float3(dot(view, tangent), dot(view, binormal), dot(view, normal));
+        i.lightDir = float3(dot(light.dir, tangent), dot(light.dir, binormal), dot(light.dir, normal));
         return i;
     }
 };
 
-struct MyFragmentProgram : ParallaxMaterial {                                     // new
-    Float HeightAt(const float2& uv, const float2& dx, const float2& dy) const {  // new
-        return tex2Dgrad(heightMap, uv, dx, dy).x;                                // new
+struct MyFragmentProgram : ParallaxMaterial {
+    Float HeightAt(const float2& uv, const float2& dx, const float2& dy) const {
+        return tex2Dgrad(heightMap, uv, dx, dy).x;
     }
 
     // How far the picture is moved: as far as a ray of sight goes aside on its way down to the height that is here.
-    float2 ParallaxOffset(const Interpolators& i, const float2& dx, const float2& dy) const {  // new
-        const Float height = (HeightAt(i.uv, dx, dy) - 0.5f) * parallaxStrength;               // new
-        return i.viewDir.xy() / i.viewDir.z * height;                                          // new
+    float2 ParallaxOffset(const Interpolators& i, const float2& dx, const float2& dy) const {
+        const Float height = (HeightAt(i.uv, dx, dy) - 0.5f) * parallaxStrength;
+        return i.viewDir.xy() / i.viewDir.z * height;
     }
 
     float4 operator()(Interpolators i) const {
-        const float2 dx = ddx(i.uv), dy = ddy(i.uv);                                                        // new
-        i.uv += ParallaxOffset(i, dx, dy);                                                                  // new
-        const float3 albedo = tex2Dgrad(mainTex, i.uv, dx, dy).rgb();                                       // new
-        const float3 normal = normalize(UnpackScaleNormal(tex2Dgrad(normalMap, i.uv, dx, dy), bumpScale));  // new
-        const Float diffuse = saturate(dot(normal, normalize(i.lightDir)));                                 // new
-        return float4(albedo * (light.color * diffuse + ambient), 1);                                       // new
+        const float2 dx = ddx(i.uv), dy = ddy(i.uv);
+        i.uv += ParallaxOffset(i, dx, dy);
+        const float3 albedo = tex2Dgrad(mainTex, i.uv, dx, dy).rgb();
+        const float3 normal = normalize(UnpackScaleNormal(tex2Dgrad(normalMap, i.uv, dx, dy), bumpScale));
+        const Float diffuse = saturate(dot(normal, normalize(i.lightDir)));
+        return float4(albedo * (light.color * diffuse + ambient), 1);
     }
 };
 

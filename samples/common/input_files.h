@@ -8,16 +8,20 @@
 
 namespace relief::samples {
 
-// The textures that a stage can have, each with an option of its own: --albedo FILE ... --detail-normal FILE.
+// The pictures that a stage can have, each with an option of its own: --albedo FILE ... --environment FILE.
 enum class TextureSlot
 {
     albedo,
     height,
     normal,
     detail,
-    detailNormal
+    detailNormal,
+    mask,
+    emission,
+    environment  // no texture: what surrounds the scene (environment.h)
 };
-inline constexpr std::array kTextureOptions = {"albedo", "height", "normal", "detail", "detail-normal"};
+inline constexpr std::array kTextureOptions = {"albedo",        "height", "normal",   "detail",
+                                               "detail-normal", "mask",   "emission", "environment"};
 
 // Something of each of them, in this order.
 template <class T>

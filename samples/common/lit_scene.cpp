@@ -314,7 +314,7 @@ Expected<Environment> readEnvironment(const std::string& path, int threads)
     Expected<CubeMap> map = CubeMap::fromPicture(*picture, ColorSpace::srgb);
     if (!map) return inFile(map.error());
     const SphericalHarmonics irradiance = irradianceOf(*map);
-    if (isPrefiltered(*map)) return Environment{std::move(*map), irradiance};
+    if (isPrefiltered(*map)) return Environment{*map, *map, irradiance};
     Workers workers(threads);
     const auto run = [&workers](int tasks, const std::function<void(int)>& function) {
         workers.run(tasks, [&function](int task, int) { function(task); });
@@ -323,7 +323,7 @@ Expected<Environment> readEnvironment(const std::string& path, int threads)
     if (!levels) return inFile(levels.error());
     Expected<CubeMap> mirrored = CubeMap::fromPicture(*levels, ColorSpace::linear);
     if (!mirrored) return inFile(mirrored.error());
-    return Environment{std::move(*mirrored), irradiance};
+    return Environment{std::move(*map), std::move(*mirrored), irradiance};
 }
 
 LitScene::View LitScene::view(float aspect) const

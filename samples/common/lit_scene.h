@@ -22,6 +22,7 @@ struct SunShadow
 // A picture of what surrounds a scene, made ready (shading/environment.h).
 struct Environment
 {
+    CubeMap radiance;               // as the picture has it
     CubeMap mirrored;               // by roughness
     SphericalHarmonics irradiance;  // for matte surfaces
 };

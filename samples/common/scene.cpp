@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "common/assets.h"
+#include "common/courtyard.h"
 #include "common/import_options.h"
 #include "common/lit_scene.h"
 #include "common/tangent_space_visualizer.h"
@@ -26,6 +27,17 @@ Expected<std::string> choose(const std::string& option, const std::string& input
     if (!file.empty()) return file;
     if (input.empty() || input == kNone) return std::string();
     return assetPath(input);
+}
+
+// What surrounds the stage: the user's picture, nothing, or what the samples stand in.
+Expected<std::shared_ptr<const Environment>> chooseEnvironment(const std::string& input, const std::string& file)
+{
+    if (file.empty() && !input.empty()) return courtyard();
+    const Expected<std::string> path = choose("environment", input, file);
+    if (!path) return tl::unexpected(path.error());
+    if (path->empty()) return nullptr;
+    return readEnvironment(*path, 0).map(
+        [](Environment&& read) { return std::make_shared<const Environment>(std::move(read)); });
 }
 
 // A picture to be loaded, and where its texture goes.
@@ -83,8 +95,14 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     } else {
         loaded->objects = arranged(inputs.mesh.empty() ? "quad" : inputs.mesh, inputs.cubesTurnedBy);
     }
+    const TextureSlot around = TextureSlot::environment;
+    Expected<std::shared_ptr<const Environment>> environment =
+        chooseEnvironment(inputs.textures[around].file, users.textures[around]);
+    if (!environment) return tl::unexpected(environment.error());
+    loaded->environment = std::move(*environment);
     std::vector<Load> loads;
     for (std::size_t slot = 0; slot < kTextureOptions.size(); ++slot) {
+        if (slot == static_cast<std::size_t>(around)) continue;
         const auto& [file, settings] = inputs.textures[slot];
         const Expected<std::string> path = choose(kTextureOptions[slot], file, users.textures[slot]);
         if (!path) return tl::unexpected(path.error());
@@ -231,10 +249,17 @@ sampler2D Scene::texture(TextureSlot slot, const char*, const ImportSettings&) c
 {
     const Texture* const loaded = inputs.textures[slot].get();
     const bool normals = slot == TextureSlot::normal || slot == TextureSlot::detailNormal;
-    const Texture& missing = slot == TextureSlot::albedo ? Texture::white()
-                             : normals                   ? Texture::flatNormal()
-                                                         : Texture::grey();
+    const bool factor = slot == TextureSlot::albedo || slot == TextureSlot::mask;
+    const Texture& missing = factor                          ? Texture::white()
+                             : normals                       ? Texture::flatNormal()
+                             : slot == TextureSlot::emission ? Texture::black()
+                                                             : Texture::grey();
     return {.texture = loaded != nullptr ? loaded : &missing};
+}
+
+const Environment* Scene::environment() const
+{
+    return inputs.environment.get();
 }
 
 Uniforms Scene::uniforms(const glm::mat4& worldFromObject) const

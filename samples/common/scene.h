@@ -21,6 +21,7 @@
 namespace relief::samples {
 
 class LitScene;
+struct Environment;
 struct SunShadow;
 struct Surroundings;
 
@@ -41,6 +42,7 @@ struct LoadedInputs
     std::vector<Object> objects;  // the user's mesh alone, or the stage's
     std::shared_ptr<const LitScene> usersScene;
     PerTexture<std::shared_ptr<const Texture>> textures;
+    std::shared_ptr<const Environment> environment;  // null: none, or the stage reads none
 };
 
 // Loads what a stage reads. A file that cannot be read, or that the stage has no input for, is an error naming it.
@@ -162,6 +164,7 @@ private:
     void leftOut(std::string_view name, const Object& object) const;
     glm::vec4 value(const Declaration& declaration) const override;
     sampler2D texture(TextureSlot slot, const char* file, const ImportSettings& settings) const override;
+    const Environment* environment() const override;
 
     SceneLog& log;
     glm::mat4 clipFromWorld;

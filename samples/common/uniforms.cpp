@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/camera.h"
+#include "common/lit_scene.h"
 
 namespace relief::samples {
 
@@ -45,6 +46,11 @@ public:
     {
         declared.inputs.textures[slot] = {file, settings};
         return {};
+    }
+    const Environment* environment() const override
+    {
+        declared.inputs.textures[TextureSlot::environment] = {"courtyard", {}};
+        return nullptr;
     }
 
 private:
@@ -122,6 +128,32 @@ sampler2D Uniforms::detail(const char* file, const ImportSettings& settings) con
 sampler2D Uniforms::detailNormals(const char* file, const ImportSettings& settings) const
 {
     return source->texture(TextureSlot::detailNormal, file, settings);
+}
+
+sampler2D Uniforms::mask(const char* file) const
+{
+    return source->texture(TextureSlot::mask, file, {.colorSpace = ColorSpace::linear});
+}
+sampler2D Uniforms::emission(const char* file) const
+{
+    return source->texture(TextureSlot::emission, file, {});
+}
+
+samplerCUBE Uniforms::radiance() const
+{
+    const Environment* environment = source->environment();
+    return {.texture = environment != nullptr ? &environment->radiance : nullptr};
+}
+samplerCUBE Uniforms::reflections() const
+{
+    const Environment* environment = source->environment();
+    return {.texture = environment != nullptr ? &environment->mirrored : nullptr};
+}
+SphericalHarmonics Uniforms::irradiance() const
+{
+    const Environment* environment = source->environment();
+    return environment != nullptr ? environment->irradiance
+                                  : gradientSurroundings(glm::vec3(1.0f), glm::vec3(1.0f), glm::vec3(1.0f));
 }
 
 UnityLight Uniforms::sun(float pitch, float yaw) const

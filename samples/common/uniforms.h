@@ -25,6 +25,8 @@
 
 namespace relief::samples {
 
+struct Environment;
+
 struct Range
 {
     float minimum = 0.0f, maximum = 1.0f;
@@ -103,6 +105,7 @@ class UniformSource
 public:
     virtual glm::vec4 value(const Declaration& declaration) const = 0;
     virtual sampler2D texture(TextureSlot slot, const char* file, const ImportSettings& settings) const = 0;
+    virtual const Environment* environment() const = 0;  // null: none
 
 protected:
     ~UniformSource() = default;
@@ -125,12 +128,24 @@ struct Uniforms
     glm::vec3 rgb(const char* name, const glm::vec3& value, const char* meaning) const;
     glm::vec4 rgba(const char* name, const glm::vec4& value, const char* meaning) const;
 
-    // Textures: the default's name in assets/, or kNone. --albedo, --height, --normal, --detail, --detail-normal.
+    // Textures: the default's name in assets/, or kNone. --albedo, --height, --normal, --detail, --detail-normal,
+    // --mask,
+    // --emission.
     sampler2D albedo(const char* file) const;
     sampler2D heights(const char* file) const;
     sampler2D normals(const char* file, const ImportSettings& settings = normalMapSettings(0.05f)) const;
     sampler2D detail(const char* file, const ImportSettings& settings = {}) const;
     sampler2D detailNormals(const char* file, const ImportSettings& settings = normalMapSettings(0.1f)) const;
+
+    // Of a material: metallic in red, occlusion in green, where detail is in blue, smoothness in alpha.
+    sampler2D mask(const char* file) const;
+    sampler2D emission(const char* file) const;
+
+    // What surrounds the scene: as it is, with levels that are averages; as surfaces mirror it, with levels by
+    // roughness (shading/environment.h); and as it lights matte ones. The courtyard (courtyard.h), or --environment.
+    samplerCUBE radiance() const;
+    samplerCUBE reflections() const;
+    SphericalHarmonics irradiance() const;
 
     // Unity's default directional light, and two properties that turn it: lightPitch and lightYaw, in degrees.
     UnityLight sun(float pitch, float yaw) const;

@@ -224,7 +224,7 @@ void Interface::recording()
     ImGui::EndPopup();
 }
 
-// A mesh fits in one place, a picture in up to five.
+// A mesh fits in one place, a picture in several.
 void Interface::dropped()
 {
     if (!beginDialog(Dialog::drop, "A file was dropped")) return;
