@@ -380,6 +380,8 @@ int runProgram(int argc, char** argv, const Program& program)
     command->add_option("--pixel", traceOptions.pixel, "Which one, counted from the upper left: 480,270")
         ->required()
         ->type_name("X,Y");
+    command->add_flag("--all", traceOptions.all,
+                      "Also the functions that the shader calls, and triangles that just miss");
     CLI::Option* const asJson = command->add_flag("--json", traceOptions.json, "As JSON");
     CLI::Option* const asPage =
         command->add_option("--html", traceOptions.html, "As a page, in one file that works offline")

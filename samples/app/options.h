@@ -34,6 +34,7 @@ struct TraceOptions
     std::string html;     // a file for a page; empty: text
     std::string against;  // another stage, for the first difference
     bool json = false;
+    bool all = false;  // of the text: also what is folded in a page
 };
 
 // What `view` shows, and how.

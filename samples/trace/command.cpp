@@ -122,9 +122,9 @@ Expected<void> traceStage(const TraceOptions& options)
         std::printf("%s\n", options.html.c_str());
         return {};
     }
-    std::fputs(
-        options.json ? toJson(told->trace, told->subject).c_str() : toText(tell(told->trace, told->subject)).c_str(),
-        stdout);
+    std::fputs(options.json ? toJson(told->trace, told->subject).c_str()
+                            : toText(tell(told->trace, told->subject), options.all).c_str(),
+               stdout);
     return {};
 }
 

@@ -67,16 +67,30 @@ std::string rowOf(const Node& node)
     return row;
 }
 
+std::string tableOf(const Quad& quad)
+{
+    std::string html = "<table>";
+    for (std::size_t i = 0; i < 4; ++i) {
+        html += i % 2 == 0 ? "<tr>" : "";
+        html += static_cast<int>(i) == quad.pixel ? "<th>" : "<td>";
+        html += escaped(quad.values[i]);
+    }
+    html += "</table>";
+    if (!quad.ddx.empty()) html += "<p>ddx " + escaped(quad.ddx) + "</p><p>ddy " + escaped(quad.ddy) + "</p>";
+    return html + "\n";
+}
+
 void write(const Node& node, std::string& html)
 {
     const std::string code = node.code.empty() ? "" : "<code>" + escaped(node.code) + "</code>";
-    if (node.children.empty()) {
+    if (node.children.empty() && !node.quad) {
         html += "<p>" + code + rowOf(node) + "</p>\n";
         return;
     }
-    const bool isValue = !node.code.empty() || node.label == "weights";
+    const bool isValue = !node.code.empty() || node.quad;
     html += std::string("<details") + (node.isFolded || isValue ? "" : " open") + "><summary>" + code + rowOf(node) +
             "</summary>\n";
+    if (node.quad) html += tableOf(*node.quad);
     std::string lastCode;
     for (const Node& child : node.children) {
         Node shown = child;
@@ -125,6 +139,9 @@ b { font-weight: 600; }
 i { display: inline-block; width: .9em; height: .9em; border: 1px solid var(--line); margin-right: .35em; vertical-align: -.1em; }
 i.d { border-radius: 50%; }
 code { display: block; font: 13px/1.6 ui-monospace, monospace; background: var(--quiet); padding: 0 .4rem; border-radius: 3px; white-space: pre-wrap; }
+table { border-collapse: collapse; font-size: 13px; margin: .2rem 0; }
+td, th { border: 1px solid var(--line); padding: .1rem .5rem; font-weight: 400; }
+th { background: var(--quiet); font-weight: 600; }
 em { color: #d33; font-style: normal; font-weight: 600; }
 kbd { font: 12px ui-monospace, monospace; word-break: break-all; }
 @media (max-width: 60rem) { body { grid-template-columns: 1fr; } aside { position: static; } }

@@ -27,6 +27,11 @@ std::string position(int x, int y)
     return std::to_string(x) + "," + std::to_string(y);
 }
 
+bool isEquality(Compare compare)
+{
+    return compare == Compare::equal || compare == Compare::notEqual;
+}
+
 bool endsWithAnyOf(const std::string& name, std::initializer_list<std::string_view> ends)
 {
     std::string lower = name;
@@ -191,7 +196,7 @@ private:
             for (const std::int64_t edge : o.edges) value += " " + std::to_string(edge);
         }
         if (o.verdict != t::SampleOutcome::Verdict::missed) {
-            value += "; depth " + number(o.depth) + ", " + wordsOf(draw.state.depthTest) + " than " +
+            value += "; depth " + number(o.depth) + ", " + wordsOf(draw.state.depthTest) + (isEquality(draw.state.depthTest) ? " to " : " than ") +
                      number(o.depthBefore) + (o.depthAfter != o.depthBefore ? ", written" : "");
             if (draw.state.stencil.isUsed())
                 value += "; stencil " + std::to_string(o.stencilBefore) + " becomes " + std::to_string(o.stencilAfter);
@@ -228,14 +233,12 @@ private:
             }
         }
         if (isEverywhereSame(value)) return node;
-        for (int p = 0; p < 4; ++p) {
-            static constexpr const char* kNames[] = {"upper left", "upper right", "lower left", "lower right"};
-            node.children.push_back(leaf(std::string(kNames[p]) + (p == pixel ? " (this)" : ""), valueOf(value, p)));
-            node.children.back().isInvalid = isInvalid(value, p);
-        }
+        Quad& quad = node.quad.emplace();
+        quad.pixel = pixel;
+        for (int p = 0; p < 4; ++p) quad.values[static_cast<std::size_t>(p)] = valueOf(value, p);
         if (value.kind == t::ValueKind::number) {
-            node.children.push_back(leaf("ddx", differenceOf(value, pixel, false)));
-            node.children.push_back(leaf("ddy", differenceOf(value, pixel, true)));
+            quad.ddx = differenceOf(value, pixel, false);
+            quad.ddy = differenceOf(value, pixel, true);
         }
         return node;
     }
@@ -356,15 +359,22 @@ private:
     const int pixel;  // of the quad
 };
 
-void writeText(const Node& node, int depth, std::string& text, const std::string& lastCode)
+void writeText(const Node& node, bool all, int depth, std::string& text, const std::string& lastCode)
 {
     const std::string indent(static_cast<std::size_t>(depth) * 2, ' ');
     if (!node.code.empty() && node.code != lastCode) text += indent + "| " + node.code + "\n";
     text += indent + node.label + (node.value.empty() ? "" : ": " + node.value) +
             (node.isInvalid ? "   <- not finite" : "") + "\n";
+    if (node.quad) {
+        const Quad& q = *node.quad;
+        text +=
+            indent + "  quad [" + q.values[0] + "] [" + q.values[1] + "] [" + q.values[2] + "] [" + q.values[3] + "]";
+        text += (q.ddx.empty() ? "" : "  ddx " + q.ddx + "  ddy " + q.ddy) + "\n";
+    }
+    if (node.isFolded && !all && !node.isInvalid) return;
     std::string code;
     for (const Node& child : node.children) {
-        writeText(child, depth + 1, text, code);
+        writeText(child, all, depth + 1, text, code);
         code = child.code;
     }
 }
@@ -394,10 +404,10 @@ Node tell(const PixelTrace& trace, const Subject& subject)
     return Teller(trace, subject).tell();
 }
 
-std::string toText(const Node& node)
+std::string toText(const Node& node, bool all)
 {
     std::string text;
-    writeText(node, 0, text, "");
+    writeText(node, all, 0, text, "");
     return text;
 }
 
@@ -406,6 +416,7 @@ std::string firstDifference(const Node& a, const Node& b)
     if (a.label != b.label || a.value != b.value)
         return a.label + ": " + a.value + "\n" + (a.label == b.label ? std::string(a.label.size(), ' ') : b.label) +
                ": " + b.value;
+    if (a.quad && b.quad && a.quad->values != b.quad->values) return a.label + ": in another pixel of the quad";
     for (std::size_t i = 0; i < std::max(a.children.size(), b.children.size()); ++i) {
         if (i >= a.children.size()) return "only the second has " + b.children[i].label + ": " + b.children[i].value;
         if (i >= b.children.size()) return "only the first has " + a.children[i].label + ": " + a.children[i].value;

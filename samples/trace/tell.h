@@ -25,10 +25,19 @@ struct Subject
     std::string line(const ::relief::trace::Site& site) const;  // without blanks around it; empty for other files
 };
 
+// A value in the quad's four pixels, and its differences in the pixel's row and column.
+struct Quad
+{
+    std::array<std::string, 4> values;  // upper left, upper right, lower left, lower right
+    std::string ddx, ddy;               // empty for what is no number
+    int pixel = 0;                      // the one that is followed
+};
+
 struct Node
 {
     std::string label, value;
     std::vector<Node> children;
+    std::optional<Quad> quad;                       // where the four are not the same
     std::string code;                               // the source's line
     std::optional<std::array<float, 3>> color;      // a linear colour to show
     std::optional<std::array<float, 3>> direction;  // a direction to show
@@ -38,7 +47,8 @@ struct Node
 
 Node tell(const PixelTrace& trace, const Subject& subject);
 
-std::string toText(const Node& node);
+// Without what is folded, or with all of it.
+std::string toText(const Node& node, bool all);
 
 // One file that works offline. `picture`: all of it, row 0 on top, R, G, B, A from the lowest byte up.
 Expected<std::string> toHtml(const PixelTrace& trace, const Subject& subject, std::span<const std::uint32_t> picture);
