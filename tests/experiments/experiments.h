@@ -40,6 +40,7 @@ Experiment snapping(Effort effort);
 Experiment litScene(Effort effort);
 Experiment environments(Effort effort);
 Experiment parallaxMethods(Effort effort);
+Experiment shadowMaps(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
