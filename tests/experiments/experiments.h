@@ -41,6 +41,7 @@ Experiment litScene(Effort effort);
 Experiment environments(Effort effort);
 Experiment parallaxMethods(Effort effort);
 Experiment shadowMaps(Effort effort);
+Experiment deferredNormals(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
