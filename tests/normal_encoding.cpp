@@ -49,7 +49,7 @@ TEST_CASE("normal encoding: a direction comes back from its square, at seams and
 
 TEST_CASE("normal encoding: in codes of 8, 12 and 16 bits the largest error is the known one")
 {
-    // Largest over two million directions, by a script without the engine.
+    // Largest of 300000 directions, by a script without the engine.
     double worst[3] = {};
     std::mt19937 random(38);
     const auto number = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
