@@ -584,6 +584,65 @@ TEST_CASE("clip: a mesh cut by the near plane in view has no holes and no double
     CHECK(clipped > static_cast<std::uint64_t>(trials(1500)));
 }
 
+TEST_CASE("clip: triangles cut by the near plane, at every one of several samples (S-211)")
+{
+    Random random(60);
+    int wrong = 0, wrongDepths = 0, twice = 0;
+    std::uint64_t clipped = 0;
+    for (int trial = 0; trial < trials(600); ++trial) {
+        const SamplePattern& pattern = kSamplePatterns[1 + trial % 3];
+        const int count = pattern.count;
+        const std::vector<Attachment> attachments = {{Format::rgba32f}, {Format::depth32f}};
+        Framebuffer target = *Framebuffer::create(40, 30, attachments, count);
+        // At least one corner in front of the near plane, at least one behind it: w >= 0.1 keeps the eye out of it.
+        const auto corner = [&](bool isVisible) {
+            const float w = random.real(0.1f, 2.0f), z = random.real(0.0f, 0.9f) * w;
+            return glm::vec4(random.real(-1.5f, 1.5f) * w, random.real(-1.5f, 1.5f) * w, isVisible ? z : -z, w);
+        };
+        const glm::vec4 a = corner(true), b = corner(false), c = corner(random.chance(2)), d = corner(random.chance(2));
+        Mesh mesh;
+        addTriangle(mesh, {a}, {b}, {c});
+        clipped += drawClip(target, mesh).trianglesClipped;
+        const Viewport viewport = {0, 0, 40, 30};
+        const HomogeneousTriangle exact(a, b, c, viewport);
+        const auto samplesInside = [&](int x, int y, double margin) {
+            int inside = 0;
+            for (int k = 0; k < count; ++k) {
+                const auto [sx, sy] = pattern.position[static_cast<std::size_t>(k)];
+                inside += exact.margin(x + 0.5 + sx / 256.0, y + 0.5 + sy / 256.0) > margin;
+            }
+            return inside;
+        };
+        const auto hitsOf = [&](const Framebuffer& drawn, int x, int y) {
+            return static_cast<double>(pixel(drawn, x, y).x) * count;
+        };
+        for (int y = 0; y < 30; ++y) {
+            for (int x = 0; x < 40; ++x) {
+                const double hits = hitsOf(target, x, y);
+                wrong += hits < samplesInside(x, y, kEdgeTolerance) || hits > samplesInside(x, y, -kEdgeTolerance) ||
+                         hits != std::floor(hits);
+                const float depth = target.depth()[static_cast<std::size_t>(y * 40 + x)];
+                wrongDepths += !(depth >= 0.0f && depth <= 1.0f);
+            }
+        }
+        // Both sides of the edge from b to c, unless they fold over each other: each sample once.
+        const double side =
+            (c.x / c.w - b.x / b.w) * (a.y / a.w - b.y / b.w) - (c.y / c.w - b.y / b.w) * (a.x / a.w - b.x / b.w);
+        const double other =
+            (c.x / c.w - b.x / b.w) * (d.y / d.w - b.y / b.w) - (c.y / c.w - b.y / b.w) * (d.x / d.w - b.x / b.w);
+        if (side * other >= 0.0) continue;
+        addTriangle(mesh, {c}, {b}, {d});
+        drawClip(target, mesh);
+        for (int y = 0; y < 30; ++y) {
+            for (int x = 0; x < 40; ++x) twice += hitsOf(target, x, y) > count;
+        }
+    }
+    measured("pixels whose number of samples no exact cut gives", wrong, 0);
+    measured("depths out of 0 to 1", wrongDepths, 0);
+    measured("pixels with a sample hit twice along a shared edge", twice, 0);
+    CHECK(clipped > static_cast<std::uint64_t>(trials(600)) / 2);
+}
+
 TEST_CASE("clip: z at the limits is kept, depth clipping off clamps depth per pixel (S-207, S-208)")
 {
     Framebuffer target = makeTarget(32, 32, Format::rgba32f, Store::keep);

@@ -127,7 +127,7 @@ TEST_CASE("cube_sampler: texCUBElod, texCUBEbias and the sampler's limits choose
     CHECK(texCUBE(s, moving).x[0] == 0.0f);
 }
 
-TEST_CASE("cube_sampler: any direction gives the colour of a face: zero, NaN, infinite, huge, subnormal")
+TEST_CASE("cube_sampler: any direction gives the colour of a face: zero, NaN, infinite, huge, subnormal (S-569)")
 {
     for (const int side : {1, 4}) {
         const CubeMap map = noiseCube(TexelFormat::rgba32Float, side);
@@ -163,6 +163,48 @@ TEST_CASE("cube_sampler: any direction gives the colour of a face: zero, NaN, in
             measured("colours out of the texels' range", wrong, 0);
         }
     }
+}
+
+TEST_CASE("cube_sampler: exactly on an edge or a corner, and one float beside it, is the same place (S-568)")
+{
+    // Texels are numbers of 0..1. One float aside moves a weight by at most 1/4096 in each of two directions, as
+    // positions are rounded to that; on level 1 of 4 texels as on level 0.
+    Random random(11);
+    double worst = 0.0, outOfRange = 0.0;
+    for (const int side : {1, 2, 4, 16}) {
+        const CubeMap map = noiseCube(TexelFormat::rgba32Float, side, 7);
+        for (const Filter filter : {Filter::bilinear, Filter::trilinear}) {
+            const samplerCUBE s{.texture = &map, .filter = filter};
+            const auto sample = [&](const glm::vec3& d, float lod) {
+                return texCUBElod(s, {Float(d.x), Float(d.y), Float(d.z), Float(lod)});
+            };
+            for (int i = 0; i < trials(400); ++i) {
+                // Two or three of the components are 1 or -1.
+                glm::vec3 d;
+                for (int c = 0; c < 3; ++c) d[c] = random.bits() % 2 == 0 ? 1.0f : -1.0f;
+                const auto free = static_cast<int>(random.bits() % 4);
+                if (free < 3) d[free] = random.bits() % 8 == 0 ? 0.0f : random(-1.0f, 1.0f);
+                const float lod = side > 1 && random.bits() % 3 == 0 ? 1.0f : 0.0f;
+                const float4 on = sample(d, lod);
+                for (int k = 0; k < 27; ++k) {
+                    glm::vec3 beside = d;
+                    const int steps[] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+                    for (int c = 0; c < 3; ++c) {
+                        if (steps[c] != 0 && std::abs(d[c]) == 1.0f)
+                            beside[c] = std::nextafter(d[c], steps[c] > 0 ? 2.0f : -2.0f);
+                    }
+                    const float4 colour = sample(beside, lod);
+                    for (int c = 0; c < 4; ++c) {
+                        worst = std::fmax(worst,
+                                          std::abs(static_cast<double>(colour[c][0]) - static_cast<double>(on[c][0])));
+                        outOfRange += colour[c][0] >= 0.0f && colour[c][0] <= 1.0f ? 0.0 : 1.0;
+                    }
+                }
+            }
+        }
+    }
+    measured("change of a colour of 0..1", worst, 2.0 / 4096.0);
+    measured("colours out of the texels' range", outOfRange, 0);
 }
 
 TEST_CASE("cube_sampler: what a lane gets does not depend on the others, and texels are counted by lanes")

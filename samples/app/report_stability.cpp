@@ -214,6 +214,7 @@ constexpr Topic kTopics[] = {{"Vertices", 101},
                              {"Triplanar", 701},
                              {"Light", 801},
                              {"Depth", 901},
+                             {"Parallax and shadows", 921},
                              {"Framebuffer", 951},
                              {"Threads, processors, builds", 1001},
                              {"What is left out", 1101}};

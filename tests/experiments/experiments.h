@@ -39,6 +39,9 @@ Experiment visibilityAndFresnel(Effort effort);
 Experiment snapping(Effort effort);
 Experiment litScene(Effort effort);
 Experiment environments(Effort effort);
+Experiment parallaxMethods(Effort effort);
+Experiment shadowMaps(Effort effort);
+Experiment deferredNormals(Effort effort);
 
 // A number with so many digits after the point.
 std::string number(double value, int digits);
