@@ -184,6 +184,7 @@ TEST_CASE("documents: the engine's folders include downwards only")
         {"shading", {"lanes", "hlsl", "texture", "mesh"}},
         {"pipeline", {"lanes", "hlsl", "texture", "mesh"}},
         {"check", {"lanes", "hlsl", "texture", "mesh", "pipeline"}},
+        {"trace", {"lanes", "hlsl", "texture", "mesh", "pipeline"}},
     };
     const std::regex include(R"re(#include "([a-z_]+)/)re");
     int checked = 0;

@@ -57,8 +57,9 @@ struct TextureCall
 {
     TextureFunction function;
     const sampler2D* texture;                  // of the first five; else null
-    const SamplerComparisonState* comparison;  // of SampleCmp
-    const samplerCUBE* cube;                   // of the last four
+    const SamplerComparisonState* comparison;  // of SampleCmp, or the next
+    const SamplerCubeComparisonState* cubeComparison;
+    const samplerCUBE* cube;  // of the last four
     Float coordinate[3];
     Float dx[3], dy[3];  // its change to the next pixel: given, or the quad's differences
     Float extra;         // level, bias, or what is compared

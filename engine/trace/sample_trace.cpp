@@ -242,6 +242,15 @@ SampleTrace traceSample(const Site& site, const TextureCall& call, int lane)
         plain.borderColor = glm::vec4(s.border);
         trace.comparison = s.comparison;
         trace2D(plain, call, lane, trace);
+    } else if (call.cubeComparison != nullptr) {
+        const Texture* const face = call.cubeComparison->faces[0];
+        const Texture& texture = face != nullptr ? *face : Texture::white();
+        trace.isCube = true;
+        trace.comparison = call.cubeComparison->comparison;
+        trace.format = texture.format();
+        trace.width = trace.height = texture.width();
+        trace.levelCount = 1;
+        trace.filter = Filter::bilinear;
     } else {
         const CubeMap& texture = call.cube->texture != nullptr ? *call.cube->texture : CubeMap::white();
         trace.isCube = true;

@@ -169,14 +169,14 @@ namespace detail {
 inline TextureCall callOf(TextureFunction function, const sampler2D& s, const float2& uv, const float2& dx,
                           const float2& dy, Float extra, unsigned lanes, const float4& result)
 {
-    return {function,           &s,    nullptr, nullptr, {uv.x, uv.y, 0.0f}, {dx.x, dx.y, 0.0f},
+    return {function,           &s,    nullptr, nullptr, nullptr, {uv.x, uv.y, 0.0f}, {dx.x, dx.y, 0.0f},
             {dy.x, dy.y, 0.0f}, extra, lanes,   result};
 }
 
 inline TextureCall callOf(TextureFunction function, const samplerCUBE& s, const float3& d, const float3& dx,
                           const float3& dy, Float extra, const float4& result)
 {
-    return {function,           nullptr, nullptr,   &s,    {d.x, d.y, d.z}, {dx.x, dx.y, dx.z},
+    return {function,           nullptr, nullptr,   nullptr, &s, {d.x, d.y, d.z}, {dx.x, dx.y, dx.z},
             {dy.x, dy.y, dy.z}, extra,   kAllLanes, result};
 }
 
@@ -229,22 +229,40 @@ inline float4 tex2Dbias(const Site& site, const sampler2D& s, const float4& uvBi
     return result;
 }
 
+namespace detail {
+
+inline void tellComparison(const Site& site, const SamplerComparisonState* s, const SamplerCubeComparisonState* cube,
+                           const float3& coordinate, Float reference, Float result)
+{
+    if (listener == nullptr) return;
+    const Float none(0.0f);
+    TextureCall call{};
+    call.function = TextureFunction::SampleCmp;
+    call.comparison = s;
+    call.cubeComparison = cube;
+    for (int c = 0; c < 3; ++c) {
+        call.coordinate[c] = coordinate[c];
+        call.dx[c] = call.dy[c] = none;
+    }
+    call.extra = reference;
+    call.lanes = kAllLanes;
+    call.result = {result, none, none, none};
+    listener->sample(site, call);
+}
+
+}  // namespace detail
+
 inline Float SampleCmp(const Site& site, const SamplerComparisonState& s, const float2& uv, Float reference)
 {
     const Float result = relief::SampleCmp(s, uv, reference);
-    if (listener != nullptr) {
-        const Float none(0.0f);
-        listener->sample(site, {TextureFunction::SampleCmp,
-                                nullptr,
-                                &s,
-                                nullptr,
-                                {uv.x, uv.y, none},
-                                {none, none, none},
-                                {none, none, none},
-                                reference,
-                                kAllLanes,
-                                {result, none, none, none}});
-    }
+    detail::tellComparison(site, &s, nullptr, float3(uv, 0.0f), reference, result);
+    return result;
+}
+
+inline Float SampleCmp(const Site& site, const SamplerCubeComparisonState& s, const float3& direction, Float reference)
+{
+    const Float result = relief::SampleCmp(s, direction, reference);
+    detail::tellComparison(site, nullptr, &s, direction, reference, result);
     return result;
 }
 

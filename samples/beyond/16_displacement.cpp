@@ -67,7 +67,8 @@ struct MyFragmentProgram : Relief {
     float4 operator()(Interpolators i) const {
         // Errors are those of the methods, not of filters: of the finest level.
         const float2 dx = PICTURE ? ddx(i.uv) : float2(0.0f), dy = PICTURE ? ddy(i.uv) : float2(0.0f);
-        i.uv += Parallax{heightMap, parallaxStrength, parallaxBias, steps}.Offset<METHOD>(i.uv, i.viewDir, dx, dy);
+        const auto heightAt = [&](const float2& by) { return tex2Dgrad(heightMap, i.uv + by, dx, dy).x; };
+        i.uv += ParallaxOffset<METHOD>(i.viewDir, parallaxStrength, parallaxBias, steps, heightAt);
         float3 normal = normalize(UnpackScaleNormal(tex2Dgrad(normalMap, i.uv, dx, dy), bumpScale));
         if constexpr (METHOD == ParallaxMethod::none) normal = normalize(i.normal);
         if constexpr (!PICTURE) return float4(i.uv + 1.0f, normal.xy());

@@ -1,8 +1,7 @@
-// The methods of 5.11 to 5.14 in one place, for stage 5.16, which compares them with geometry. Each says how far the
-// picture is moved, in uv, where a ray of sight meets the flat quad.
+// The methods of 5.11 to 5.14 by name, for stage 5.16, which compares them with geometry.
 #pragma once
 
-#include "relief.h"
+#include "shading/parallax.h"
 
 namespace relief::samples {
 
@@ -15,47 +14,18 @@ enum class ParallaxMethod
     relief      // 5.14
 };
 
-struct Parallax
+// How far the picture is moved, in uv (shading/parallax.h). `bias` is 5.11's, `steps` are those of the others.
+template <ParallaxMethod METHOD, class HeightAt>
+float2 ParallaxOffset(const float3& viewDir, Float strength, Float bias, Float steps, const HeightAt& heightAt)
 {
-    sampler2D heightMap;
-    Float strength;  // from the lowest to the highest, in uv
-    Float bias;      // of 5.11
-    Float steps;     // of the others
-
-    // `viewDir` is in tangent space, of any length; dx and dy are the uv's derivatives.
-    template <ParallaxMethod METHOD>
-    float2 Offset(const float2& uv, const float3& viewDir, const float2& dx, const float2& dy) const
-    {
-        if constexpr (METHOD == ParallaxMethod::none) return float2(0.0f);
-        const auto heightAt = [&](const float2& at) { return tex2Dgrad(heightMap, at, dx, dy).x; };
-        if constexpr (METHOD == ParallaxMethod::limited) {
-            const float3 unit = normalize(viewDir);
-            return unit.xy() / (unit.z + bias) * ((heightAt(uv) - 0.5f) * strength);
-        }
-        Float step = 1.0f / steps;
-        float2 delta = viewDir.xy() / viewDir.z * (step * strength), offset(0.0f);
-        Float ray = 1.0f, surface = heightAt(uv), surfaceBefore = surface;
-        Mask above = surface < ray;
-        whileAny(above, [&] {
-            offset = select(above, offset - delta, offset);
-            ray = select(above, ray - step, ray);
-            surfaceBefore = select(above, surface, surfaceBefore);
-            surface = select(above, heightAt(uv + offset), surface);
-            above &= surface < ray;
-        });
-        if constexpr (METHOD == ParallaxMethod::occlusion) {
-            const Float over = ray + step - surfaceBefore, under = surface - ray;
-            offset += delta * select(ray < 1.0f, under / (over + under), Float(0.0f));
-        }
-        for (int k = 0; k < (METHOD == ParallaxMethod::relief ? 5 : 0); ++k) {
-            step *= 0.5f;
-            delta *= 0.5f;
-            const Float sign = select(heightAt(uv + offset) < ray, Float(-1.0f), Float(1.0f));
-            offset += delta * sign;
-            ray += step * sign;
-        }
-        return offset;
-    }
-};
+    const float2 here(0.0f);
+    if constexpr (METHOD == ParallaxMethod::none) return here;
+    if constexpr (METHOD == ParallaxMethod::limited)
+        return limitedParallaxOffset(viewDir, (heightAt(here) - 0.5f) * strength, bias);
+    if constexpr (METHOD == ParallaxMethod::steep) return steepParallaxOffset(viewDir, strength, steps, heightAt);
+    if constexpr (METHOD == ParallaxMethod::occlusion)
+        return occlusionParallaxOffset(viewDir, strength, steps, heightAt);
+    return reliefParallaxOffset(viewDir, strength, steps, 5, heightAt);
+}
 
 }  // namespace relief::samples

@@ -491,7 +491,8 @@ private:
         }
         // A declaration has at least two words before the name's value; a call has one.
         for (const std::size_t name : declarators(begin, end, true)) {
-            const bool hasType = name > begin && (isName(name - 1) || isAnyOf(word(name - 1), {">", "&", "*", ","}));
+            const bool afterSymbol = name > begin + 1 && isAnyOf(word(name - 1), {">", "&", "*", ","});
+            const bool hasType = afterSymbol || (name > begin && isName(name - 1));
             if (!hasType) return all;
             all.push_back({std::string(word(name)), tokens[name].line});
         }

@@ -11,37 +11,15 @@
 #include <sys/wait.h>
 
 #include "gltf_file.h"
-#include "temporary_folder.h"
+#include "live_command.h"
 #include "texture/image.h"
 
 namespace {
 
-struct Outcome
-{
-    int code;
-    std::string out, err;
-};
-
-std::string contents(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-Outcome run(const TemporaryFolder& folder, const std::string& arguments, const std::string& program = "relief_view")
-{
-    const std::string command = "cd '" + folder.path.string() + "' && '" RELIEF_PROGRAMS "/" + program + "' " +
-                                arguments + " >out.txt 2>err.txt </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out.txt"), contents(folder / "err.txt")};
-}
-
 void checkRefused(const TemporaryFolder& folder, const std::string& arguments, const std::string& words)
 {
     CAPTURE(arguments);
-    const Outcome outcome = run(folder, arguments);
+    const Outcome outcome = runCommand(folder, arguments);
     CHECK(outcome.code == 2);
     CHECK(outcome.out.empty());
     CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
@@ -53,30 +31,31 @@ void checkRefused(const TemporaryFolder& folder, const std::string& arguments, c
 TEST_CASE("live: a new stage in a file is drawn, hashed, explained and measured")
 {
     const TemporaryFolder folder;
-    REQUIRE(run(folder, "new my_shader.cpp").code == 0);
-    const Outcome hash = run(folder, "hash my_shader.cpp --size 64x36");
+    REQUIRE(runCommand(folder, "new my_shader.cpp").code == 0);
+    const Outcome hash = runCommand(folder, "hash my_shader.cpp --size 64x36");
     CHECK_MESSAGE(hash.code == 0, hash.err);
     CHECK(hash.out.find("my_shader") == 18);
-    CHECK(run(folder, "hash my_shader.cpp --size 64x36").out == hash.out);
-    CHECK(run(folder, "hash my_shader --size 64x36", "live_stage/my_shader").out == hash.out);  // relief_add_stage
-    const Outcome render = run(folder, "render my_shader.cpp --size 64x36 -o picture.png --set tiling=2");
+    CHECK(runCommand(folder, "hash my_shader.cpp --size 64x36").out == hash.out);
+    CHECK(runCommand(folder, "hash my_shader --size 64x36", "live_stage/my_shader").out ==
+          hash.out);  // relief_add_stage
+    const Outcome render = runCommand(folder, "render my_shader.cpp --size 64x36 -o picture.png --set tiling=2");
     CHECK_MESSAGE(render.code == 0, render.err);
     CHECK(relief::readImage((folder / "picture.png").string()));
-    CHECK(run(folder, "explain my_shader.cpp --size 64x36").out.find("my_shader My shader at 64x36") == 0);
-    CHECK(run(folder, "signature my_shader.cpp").out.find("SV_POSITION") != std::string::npos);
+    CHECK(runCommand(folder, "explain my_shader.cpp --size 64x36").out.find("my_shader My shader at 64x36") == 0);
+    CHECK(runCommand(folder, "signature my_shader.cpp").out.find("SV_POSITION") != std::string::npos);
 
-    REQUIRE(run(folder, "new copy.cpp --from my_shader.cpp").code == 0);
-    CHECK(run(folder, "hash copy.cpp --size 64x36").out.substr(0, 16) == hash.out.substr(0, 16));
-    REQUIRE(run(folder, "new copy112.cpp --from 1.12").code == 0);
-    CHECK(run(folder, "hash copy112.cpp --size 64x36").out.substr(0, 16) ==
-          run(folder, "hash 1.12 --size 64x36", "relief").out.substr(0, 16));
+    REQUIRE(runCommand(folder, "new copy.cpp --from my_shader.cpp").code == 0);
+    CHECK(runCommand(folder, "hash copy.cpp --size 64x36").out.substr(0, 16) == hash.out.substr(0, 16));
+    REQUIRE(runCommand(folder, "new copy112.cpp --from 1.12").code == 0);
+    CHECK(runCommand(folder, "hash copy112.cpp --size 64x36").out.substr(0, 16) ==
+          runCommand(folder, "hash 1.12 --size 64x36", "relief").out.substr(0, 16));
 }
 
 TEST_CASE("live: render --watch writes a picture at every save")
 {
     using namespace std::chrono_literals;
     const TemporaryFolder folder;
-    REQUIRE(run(folder, "new my_shader.cpp").code == 0);
+    REQUIRE(runCommand(folder, "new my_shader.cpp").code == 0);
     const std::string text = contents(folder / "my_shader.cpp");
     const std::string command = "cd '" + folder.path.string() +
                                 "' && exec '" RELIEF_PROGRAMS
@@ -113,7 +92,7 @@ TEST_CASE("live: the window opens, shows frames and closes under SDL's dummy dri
 {
     ::setenv("SDL_VIDEODRIVER", "dummy", 1);
     const TemporaryFolder folder;
-    const Outcome outcome = run(folder, "view 1.09 --size 64x36 --frames 3");
+    const Outcome outcome = runCommand(folder, "view 1.09 --size 64x36 --frames 3");
     if (outcome.err.find("has no window") != std::string::npos) {
         CHECK(outcome.code == 2);
         MESSAGE("built without SDL2 or Dear ImGui");
@@ -128,7 +107,7 @@ TEST_CASE("live: the window opens, shows frames and closes under SDL's dummy dri
 
     folder.write("a.glb", GltfFile::square().glb());
     folder.write("cut.glb", GltfFile::square().glb().substr(0, 500));
-    const Outcome scene = run(folder, "view a.glb --size 64x36 --frames 3");
+    const Outcome scene = runCommand(folder, "view a.glb --size 64x36 --frames 3");
     CHECK_MESSAGE(scene.code == 0, scene.err);
     checkRefused(folder, "view cut.glb", "cut.glb: is truncated");
     checkRefused(folder, "view none.glb", "none.glb");
@@ -155,7 +134,7 @@ TEST_CASE("live: bad input is one line")
     checkRefused(folder, "render --watch 1.12 --compiler msvc", "msvc");
     checkRefused(folder, "render --watch 1.12 --size 0x0", "--size");
 
-    const Outcome outcome = run(folder, "hash there.cpp");
+    const Outcome outcome = runCommand(folder, "hash there.cpp");
     CHECK(outcome.code == 2);
     CHECK(outcome.out.empty());
     CHECK(outcome.err.find("Stage NAME()") != std::string::npos);

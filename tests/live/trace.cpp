@@ -2,11 +2,14 @@
 //
 // RELIEF_FULL_TRIALS=1: all stages, 150 pixels each.
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <random>
+#include <regex>
 #include <sstream>
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include "check/hash.h"
 #include "common/render.h"
@@ -14,7 +17,8 @@
 #include "live/watch.h"
 #include "trace/instrument.h"
 #include "trace/pixel_trace.h"
-#include "trace/tell.h"
+
+#include "live_command.h"
 
 using namespace relief;
 using namespace relief::samples;
@@ -55,23 +59,6 @@ std::uint64_t hashOfStage(const Stage& its)
     stage.record(frame, 480, 270);
     frame.run();
     return hashOf(target);
-}
-
-// All values that a trace's program tells, as "name" or "name.field".
-std::vector<std::string> namesIn(const relief::trace::PixelTrace& trace)
-{
-    std::vector<std::string> names;
-    for (const auto& draw : trace.draws) {
-        for (const auto& primitive : draw.primitives) {
-            for (const auto& piece : primitive.pieces) {
-                if (!piece.fragment) continue;
-                for (const auto& event : piece.fragment->events) {
-                    if (event.kind == relief::trace::Event::Kind::value) names.push_back(event.site.name + event.field);
-                }
-            }
-        }
-    }
-    return names;
 }
 
 }  // namespace
@@ -119,4 +106,141 @@ TEST_CASE("trace: an instrumented stage has the book's hash, and a trace ends at
     CHECK(stages >= 5);
     CHECK(told > pixels / 3);
     CHECK(textures > pixels / 2);
+}
+
+// --- what the instrumenter understands ---
+
+TEST_CASE("trace: what a statement gives a value is told, and nothing else")
+{
+    // In the body of a function; the names that are told, in order.
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"const float3 n = normalize(v);", "n"},
+        {"float2 dx = ddx(uv), dy = ddy(uv);", "dx dy"},
+        {"float3 a(1.0f), b{2.0f};", "a b"},
+        {"float3 color;", ""},
+        {"i.normal = f(a, b = 2);", "i.normal"},
+        {"a[2].x += 1.0f;", "a[2].x"},
+        {"*p = 1.0f;", ""},
+        {"++count; --i.left; k++;", "count i.left k"},
+        {"Triplanar<float2> uv = f<float3, 2>(x);", "uv"},
+        {"const Triplanar<float3> bumps = {g(a < b, c > d), h(x)};", "bumps"},
+        {"const auto& [x, y] = f();", "x y"},
+        {"f(a, b); g<int>(c);", ""},
+        {"if (a == b) x = 1; else y = 2;", "x y"},
+        {"for (int k = 0; k < 3; ++k) sum += k;", "sum"},
+        {"while (a <= b) { a *= 2.0f; }", "a"},
+        {"static const float table[] = {1, 2};", ""},
+        {"constexpr float pi = 3.0f;", ""},
+        {"using V = float3; struct Local { int a = 1; };", ""},
+        {"whileAny(m, [&] { h = select(m, h - s, h); });", "h"},
+        {"const auto at = [&](const float2& uv) { Float z = 1.0f; return z; };", "z at"},
+        {"switch (k) { case 1: x = 1; break; default: y = 2; }", "x y"},
+        {"x = s ? \"a = b;\"[0] : '='; // y = 3;", "x"},
+        {"/* a = 1; */ b = 2;", "b"},
+    };
+    const std::regex seen(R"re(see\(::relief::trace::Site\{"f",(\d+),"F","([^"]*)"\})re");
+    for (const auto& [statement, names] : cases) {
+        CAPTURE(statement);
+        const std::string text = samples::trace::instrumented("void F()\n{\n" + statement + "\n}\n", "f");
+        CAPTURE(text);
+        std::string found;
+        for (std::sregex_iterator m(text.begin(), text.end(), seen), end; m != end; ++m) {
+            found += (found.empty() ? "" : " ") + (*m)[2].str();
+            CHECK((*m)[1] == "3");
+        }
+        CHECK(found == names);
+        CHECK(std::count(text.begin(), text.end(), '\n') == 4);
+    }
+}
+
+TEST_CASE("trace: structs, parameters, textures and returned values in an instrumented source")
+{
+    const std::string source =
+        "struct Light { float3 color, dir; Float power = 1.0f; static int count; float f() const; };\n"
+        "struct P {\n"
+        "    float4 operator()(Interpolators i, const float3& n, Float& out) const { return tex2D(map, i.uv) * 2; }\n"
+        "    constexpr float c() const { float x = 1; return x; }\n"
+        "};\n";
+    const std::string text = samples::trace::instrumented(source, "f");
+    const auto has = [&](const char* part) { return text.find(part) != std::string::npos; };
+    CHECK(has("fields(\"color\", its.color); fields(\"dir\", its.dir); fields(\"power\", its.power); }"));
+    CHECK(has("Call relief_call(::relief::trace::Site{\"f\",3,\"P\",\"P\"});"));
+    CHECK(has("{\"f\",3,\"P\",\"i\"},i);"));
+    CHECK(has("{\"f\",3,\"P\",\"n\"},n);"));
+    CHECK_FALSE(has("\"out\""));
+    CHECK(has("::relief::trace::tex2D(::relief::trace::Site{\"f\",3,\"P\",\"tex2D\"}, map, i.uv)"));
+    CHECK(has("return ::relief::trace::returned("));
+    CHECK(has("constexpr float c() const { float x = 1; return x; }"));
+    CHECK_FALSE(has("const P& its"));
+}
+
+// --- the command ---
+
+TEST_CASE("trace: the page of the book says what the command prints")
+{
+    const TemporaryFolder folder;
+    const Outcome outcome = runCommand(folder, "trace 1.25 --pixel 480,300");
+    REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+    std::ifstream page(std::filesystem::path(RELIEF_GOLDEN_FOLDER).parent_path().parent_path() / "docs" /
+                       "life_of_a_pixel.md");
+    int quoted = 0;
+    bool isTrace = false;
+    for (std::string line; std::getline(page, line);) {
+        if (line.starts_with("```")) {
+            isTrace = line == "```trace";
+        } else if (isTrace) {
+            ++quoted;
+            CHECK_MESSAGE(outcome.out.find(line + "\n") != std::string::npos, line);
+        }
+    }
+    CHECK(quoted > 25);
+    CHECK(outcome.out.find("  stored: #bb9975, alpha ff (rgba8 sRGB)\n") != std::string::npos);
+    CHECK(runCommand(folder, "trace 1.25 --pixel 480,300 --threads 1 --tile 16").out.substr(0, 40) ==
+          outcome.out.substr(0, 40));
+}
+
+TEST_CASE("trace: JSON, a page, and a shader of one's own")
+{
+    const TemporaryFolder folder;
+    REQUIRE(runCommand(folder, "new my_shader.cpp").code == 0);
+    const std::string what = "trace my_shader.cpp --pixel 31,17 --size 64x36 --samples 4";
+    const Outcome json = runCommand(folder, what + " --json");
+    REQUIRE_MESSAGE(json.code == 0, json.err);
+    const nlohmann::json all = nlohmann::json::parse(json.out);
+    CHECK(all["pixel"] == nlohmann::json::array({31, 17}));
+    CHECK(all["samples"] == 4);
+    REQUIRE(runCommand(folder, "render my_shader.cpp --size 64x36 --samples 4 -o picture.png").code == 0);
+    const ImageFile file = *readImage((folder / "picture.png").string());
+    const auto& picture = std::get<ImageOf<std::uint8_t>>(file);
+    for (std::size_t c = 0; c < 4; ++c) CHECK(all["stored"][c] == picture.pixels[(17 * 64 + 31) * 4 + c]);
+
+    const Outcome page = runCommand(folder, what + " --html pixel.html");
+    REQUIRE_MESSAGE(page.code == 0, page.err);
+    const std::string html = contents(folder / "pixel.html");
+    CHECK(html.find("data:image/png;base64,") != std::string::npos);
+    CHECK(html.find("http") == std::string::npos);
+    CHECK(html.find("my_shader") != std::string::npos);
+    CHECK(runCommand(folder, what + " --against my_shader.cpp").out == "the traces are the same\n");
+    CHECK(runCommand(folder, what + " --against 1.09").out.find("My shader") != std::string::npos);
+}
+
+TEST_CASE("trace: bad input is one line and exit code 2")
+{
+    const TemporaryFolder folder;
+    const auto refused = [&](const std::string& arguments, const std::string& words) {
+        CAPTURE(arguments);
+        const Outcome outcome = runCommand(folder, "trace " + arguments);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.out.empty());
+        CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+        CHECK_MESSAGE(outcome.err.find(words) != std::string::npos, outcome.err);
+    };
+    refused("1.09 --pixel 5", "--pixel 5: write X,Y");
+    refused("1.09 --pixel 5,x", "--pixel 5,x: write X,Y");
+    refused("1.09 --pixel 64,0 --size 64x36", "there is no pixel 64,0; the picture is 64x36");
+    refused("1.09 --pixel -1,0 --size 64x36", "there is no pixel -1,0");
+    refused("9.99 --pixel 1,1", "9.99");
+    refused("1.09 --pixel 1,1 --size 0x5", "--size 0x5");
+    refused("1.09 --pixel 1,1 --set no=1 --size 64x36", "no property 'no'");
+    refused("1.09 --pixel 1,1 --size 64x36 --html missing/folder/page.html", "missing/folder");
 }

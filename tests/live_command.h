@@ -1,0 +1,35 @@
+// Runs the program relief_view in a folder of its own: what it prints, and its exit code.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <sys/wait.h>
+
+#include "temporary_folder.h"
+
+struct Outcome
+{
+    int code;
+    std::string out, err;
+};
+
+inline std::string contents(const std::filesystem::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+inline Outcome runCommand(const TemporaryFolder& folder, const std::string& arguments,
+                          const std::string& program = "relief_view")
+{
+    const std::string command = "cd '" + folder.path.string() + "' && '" RELIEF_PROGRAMS "/" + program + "' " +
+                                arguments + " >out.txt 2>err.txt </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out.txt"), contents(folder / "err.txt")};
+}
