@@ -83,19 +83,20 @@ std::string tableOf(const Quad& quad)
 void write(const Node& node, std::string& html)
 {
     const std::string code = node.code.empty() ? "" : "<code>" + escaped(node.code) + "</code>";
+    html += code;
     if (node.children.empty() && !node.quad) {
-        html += "<p>" + code + rowOf(node) + "</p>\n";
+        html += "<p>" + rowOf(node) + "</p>\n";
         return;
     }
     const bool isValue = !node.code.empty() || node.quad;
-    html += std::string("<details") + (node.isFolded || isValue ? "" : " open") + "><summary>" + code + rowOf(node) +
+    html += std::string("<details") + (node.isFolded || isValue ? "" : " open") + "><summary>" + rowOf(node) +
             "</summary>\n";
     if (node.quad) html += tableOf(*node.quad);
     std::string lastCode;
     for (const Node& child : node.children) {
         Node shown = child;
         if (shown.code == lastCode) shown.code.clear();
-        lastCode = child.code;
+        if (!child.code.empty()) lastCode = child.code;
         write(shown, html);
     }
     html += "</details>\n";
@@ -132,13 +133,15 @@ h1 { font-size: 1.3rem; margin: 0 0 .5rem; }
 .picture u { position: absolute; width: 15px; height: 15px; margin: -8px; border: 2px solid #fff; outline: 1px solid #000; border-radius: 50%; }
 .near { display: grid; grid-template-columns: repeat(11, 1fr); aspect-ratio: 1; width: 60%; margin: 1rem 0; }
 .near .here { outline: 2px solid #fff; box-shadow: 0 0 0 3px #000; z-index: 1; }
-details { border-left: 2px solid var(--line); padding-left: .8rem; margin: .15rem 0 .15rem .2rem; }
-summary { cursor: pointer; margin-left: -.6rem; }
+summary { cursor: pointer; }
+details > *:not(summary) { margin-left: .45rem; border-left: 2px solid var(--line); padding-left: .9rem; }
+details > details { padding-left: .6rem; }
 p { margin: .1rem 0; }
+main p { padding-left: 1.1rem; }
 b { font-weight: 600; }
 i { display: inline-block; width: .9em; height: .9em; border: 1px solid var(--line); margin-right: .35em; vertical-align: -.1em; }
 i.d { border-radius: 50%; }
-code { display: block; font: 13px/1.6 ui-monospace, monospace; background: var(--quiet); padding: 0 .4rem; border-radius: 3px; white-space: pre-wrap; }
+main code { display: block; font: 13px/1.6 ui-monospace, monospace; background: var(--quiet); white-space: pre-wrap; }
 table { border-collapse: collapse; font-size: 13px; margin: .2rem 0; }
 td, th { border: 1px solid var(--line); padding: .1rem .5rem; font-weight: 400; }
 th { background: var(--quiet); font-weight: 600; }

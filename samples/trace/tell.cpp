@@ -196,8 +196,9 @@ private:
             for (const std::int64_t edge : o.edges) value += " " + std::to_string(edge);
         }
         if (o.verdict != t::SampleOutcome::Verdict::missed) {
-            value += "; depth " + number(o.depth) + ", " + wordsOf(draw.state.depthTest) + (isEquality(draw.state.depthTest) ? " to " : " than ") +
-                     number(o.depthBefore) + (o.depthAfter != o.depthBefore ? ", written" : "");
+            value += "; depth " + number(o.depth) + ", " + wordsOf(draw.state.depthTest) +
+                     (isEquality(draw.state.depthTest) ? " to " : " than ") + number(o.depthBefore) +
+                     (o.depthAfter != o.depthBefore ? ", written" : "");
             if (draw.state.stencil.isUsed())
                 value += "; stencil " + std::to_string(o.stencilBefore) + " becomes " + std::to_string(o.stencilAfter);
         }
@@ -228,7 +229,7 @@ private:
             if (endsWithAnyOf(label, {"normal", "dir", "tangent", "binormal", "direction"}) ||
                 (std::abs(length - 1.0f) < 1e-3f && (xyz[0] < 0 || xyz[1] < 0 || xyz[2] < 0))) {
                 node.direction = xyz;
-            } else if (!endsWithAnyOf(label, {"pos", "position", "uv"})) {
+            } else if (!endsWithAnyOf(label, {"pos", "position", "uv"}) && !label.starts_with("TEXCOORD")) {
                 node.color = xyz;
             }
         }
@@ -375,7 +376,7 @@ void writeText(const Node& node, bool all, int depth, std::string& text, const s
     std::string code;
     for (const Node& child : node.children) {
         writeText(child, all, depth + 1, text, code);
-        code = child.code;
+        if (!child.code.empty()) code = child.code;
     }
 }
 
