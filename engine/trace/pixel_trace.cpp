@@ -13,12 +13,6 @@
 
 namespace relief::inline RELIEF_WIDTH::trace {
 
-float QuadValue::number(int pixel, int component) const
-{
-    const std::uint32_t word = words[static_cast<std::size_t>(pixel)][static_cast<std::size_t>(component)];
-    return kind == ValueKind::number ? std::bit_cast<float>(word) : static_cast<float>(static_cast<std::int32_t>(word));
-}
-
 namespace {
 
 using Words = std::array<std::uint32_t, 4>;
@@ -168,19 +162,6 @@ Words mergedWords(Format format, Blend blend, const std::array<float, 4>& color,
 
 // --- following ---
 
-QuadValue quadOf(ValueKind kind, int rows, int columns, const Float* components, const Place& at)
-{
-    QuadValue value{kind, rows, columns, {}};
-    for (int c = 0; c < rows * columns; ++c) {
-        alignas(Float) float lanes[kLanes];
-        components[c].store(lanes);
-        for (int pixel = 0; pixel < 4; ++pixel)
-            value.words[static_cast<std::size_t>(pixel)][static_cast<std::size_t>(c)] =
-                std::bit_cast<std::uint32_t>(lanes[at.quad + pixel]);
-    }
-    return value;
-}
-
 // A triangle that covers the pixel, as the frame came to it.
 struct Followed
 {
@@ -190,7 +171,7 @@ struct Followed
     bool isTaken = false;
 };
 
-class PixelFollower final : public Frame::Storage::Follower, public Listener
+class PixelFollower final : public Frame::Storage::Follower
 {
 public:
     PixelFollower(Frame::Storage& its, int x, int y) : at(x, y), frame(its)
@@ -229,9 +210,13 @@ public:
         copy.more = &more;
         copy.quads = at.quadBits();
         const FetchCounters fetches = std::exchange(shading.fetches, {});
-        listener = this;
-        own.shadeBlocks({&copy, 1}, its, corners);
-        listener = nullptr;
+        {
+            Recorder recorder(at.lane);
+            own.shadeBlocks({&copy, 1}, its, corners);
+            current->events = std::move(recorder.events);
+            current->textures = std::move(recorder.textures);
+            expect(recorder.agrees, "a texture's sample");
+        }
         shading.fetches = fetches;
 
         const Outputs& outputs = own.programs->outputs;
@@ -239,7 +224,7 @@ public:
         if ((outputs.targets & 1u) != 0) {
             const Float color[4] = {Float::load(copy.color[0]), Float::load(copy.color[1]), Float::load(copy.color[2]),
                                     Float::load(copy.color[3])};
-            current->color = quadOf(ValueKind::number, 4, 1, color, at);
+            current->color = quadOf({ValueKind::number, 4, 1, color}, at.quad);
             for (const auto& c : {0, 1, 2, 3})
                 expect(sameBits(copy.color[c][lane], block.color[c][lane]), "its colour");
         }
@@ -264,29 +249,6 @@ public:
         for (unsigned rest = targets; rest != 0; rest &= rest - 1)
             merge(draw, itsTile, std::countr_zero(rest), expected);
         expect(after == expected, "what is stored");
-    }
-
-    // --- what the program says ---
-
-    void enter(const Site& function) override { current->events.push_back({Event::Kind::enter, function, "", {}}); }
-    void leave() override { current->events.push_back({Event::Kind::leave, {"", 0, "", ""}, "", {}}); }
-    void value(const Site& site, const std::string& field, const LaneValue& v) override
-    {
-        current->events.push_back(
-            {Event::Kind::value, site, field, quadOf(v.kind, v.rows, v.columns, v.components, at)});
-    }
-    void sample(const Site& site, const TextureCall& call) override
-    {
-        listener = nullptr;
-        const SampleTrace trace = traceSample(site, call, at.lane);
-        const std::array<float, 4> again = recombined(trace);
-        for (std::size_t c = 0; c < 4; ++c) expect(sameBits(again[c], trace.result[c]), "a texture's sample");
-        const Float result[4] = {call.result.x, call.result.y, call.result.z, call.result.w};
-        const int count = call.function == TextureFunction::SampleCmp ? 1 : 4;
-        current->events.push_back(
-            {Event::Kind::sample, site, "", quadOf(ValueKind::number, count, 1, result, at), current->textures.size()});
-        current->textures.push_back(trace);
-        listener = this;
     }
 
     const Place at;
@@ -347,7 +309,7 @@ private:
                     trace.corners[k][static_cast<std::size_t>(c)] = std::bit_cast<std::uint32_t>(from[k][slot]);
             }
             trace.here =
-                quadOf(field.isInteger ? ValueKind::integer : ValueKind::number, field.components, 1, here, at);
+                quadOf({field.isInteger ? ValueKind::integer : ValueKind::number, field.components, 1, here}, at.quad);
             current->interpolators.push_back(std::move(trace));
         }
     }

@@ -12,36 +12,9 @@
 #include <vector>
 
 #include "pipeline/frame.h"
-#include "trace/sample_trace.h"
+#include "trace/recorder.h"
 
 namespace relief::inline RELIEF_WIDTH::trace {
-
-// A value of the quad's four pixels: upper left, upper right, lower left, lower right.
-struct QuadValue
-{
-    ValueKind kind = ValueKind::number;
-    int rows = 1, columns = 1;
-    std::array<std::array<std::uint32_t, 16>, 4> words{};  // of each pixel: floats' bits, integers, 0 and 1
-
-    float number(int pixel, int component) const;
-};
-
-// What a program said, in order.
-struct Event
-{
-    enum class Kind
-    {
-        enter,
-        leave,
-        value,
-        sample
-    };
-    Kind kind;
-    Site site;
-    std::string field;  // of a struct: ".dir"
-    QuadValue value;
-    std::size_t sample = 0;  // its place in the list of samples
-};
 
 struct InterpolatorTrace
 {

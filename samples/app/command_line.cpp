@@ -377,9 +377,16 @@ int runProgram(int argc, char** argv, const Program& program)
     TraceOptions traceOptions;
     addInputOptions(*command, traceOptions.render);
     addTargetOptions(*command, traceOptions.render);
-    command->add_option("--pixel", traceOptions.pixel, "Which one, counted from the upper left: 480,270")
-        ->required()
+    CLI::Option_group* const what = command->add_option_group("one of");
+    what->add_option("--pixel", traceOptions.pixel, "Which pixel, counted from the upper left: 480,270")
         ->type_name("X,Y");
+    what->add_option("--vertex", traceOptions.vertex, "A vertex of the mesh instead: its vertex program, line by line")
+        ->check(CLI::NonNegativeNumber);
+    what->add_flag("--first-nan", traceOptions.firstNan,
+                   "The first pixel, line and name instead where a NaN or an infinity appears");
+    what->require_option(1);
+    command->add_option("--draw", traceOptions.draw, "With --vertex: of which draw; 0: the first")
+        ->check(CLI::NonNegativeNumber);
     command->add_flag("--all", traceOptions.all,
                       "Also the functions that the shader calls, and triangles that just miss");
     CLI::Option* const asJson = command->add_flag("--json", traceOptions.json, "As JSON");

@@ -8,6 +8,8 @@
 
 #include "common/inside.h"
 #include "pipeline/instruments.h"
+#include "trace/command.h"
+#include "trace/variable.h"
 
 namespace relief::samples {
 
@@ -91,7 +93,8 @@ Expected<void> render(const RenderOptions& options, const std::string& output)
 {
     const Expected<Size> size = parseSize(options.size);
     if (!size) return tl::unexpected(size.error());
-    const Expected<PreparedStage> prepared = prepare(options);
+    const Expected<PreparedStage> prepared =
+        relief::trace::namesVariable(options.show) ? prepareTraced(options) : prepare(options);
     if (!prepared) return tl::unexpected(prepared.error());
     if (options.show == "list") return listViews(*prepared, *size);
     const std::string path = output.empty() ? prepared->stage->stem + ".png" : output;

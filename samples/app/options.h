@@ -30,9 +30,12 @@ struct RenderOptions
 struct TraceOptions
 {
     RenderOptions render;
-    std::string pixel;    // "X,Y"
-    std::string html;     // a file for a page; empty: text
-    std::string against;  // another stage, for the first difference
+    std::string pixel;  // "X,Y"
+    int vertex = -1;    // in place of a pixel: of the mesh of draw `draw`
+    int draw = 0;
+    bool firstNan = false;  // in place of a pixel: where the first NaN or infinity appears
+    std::string html;       // a file for a page; empty: text
+    std::string against;    // another stage, for the first difference
     bool json = false;
     bool all = false;  // of the text: also what is folded in a page
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/overlay.h"
+#include "trace/variable.h"
 
 namespace relief::samples {
 
@@ -140,7 +141,8 @@ Expected<Statistics> runInside(Frame& frame, Framebuffer& target, const std::str
     if (show.empty() || show == "color") {
         statistics = frame.run();
     } else {
-        const Expected<Inspection> seen = inspect(frame, show);
+        const Expected<Inspection> seen =
+            trace::namesVariable(show) ? trace::inspectVariable(frame, show) : inspect(frame, show);
         if (!seen) return tl::unexpected(seen.error());
         statistics = seen->statistics;
         paint(*seen, target.color8());

@@ -11,7 +11,8 @@
 namespace relief::samples {
 
 // Runs a frame that was recorded for this target, whose colours are 8-bit sRGB, and shows one of its views on it; empty
-// or "color": its picture. An error for a view that is not there names those that are.
+// or "color": its picture; of a traced stage also a line's value (trace/variable.h). An error for a view that is not
+// there names those that are.
 Expected<Statistics> runInside(Frame& frame, Framebuffer& target, const std::string& show,
                                const std::vector<Label>& labels = {});
 

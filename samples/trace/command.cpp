@@ -6,6 +6,7 @@
 #include "file.h"
 #include "prepare.h"
 #include "trace/tell.h"
+#include "trace/variable.h"
 
 namespace relief::samples {
 
@@ -73,6 +74,51 @@ std::string commandOf(const RenderOptions& options, const std::string& pixel)
     return words;
 }
 
+// Of a stage that tells: its frame, and where its lines are.
+struct RecordedTelling
+{
+    Subject subject;
+    Recorded recorded;
+
+    static Expected<RecordedTelling> record(const RenderOptions& options, const std::string& what)
+    {
+        const Expected<Size> size = parseSize(options.size);
+        if (!size) return tl::unexpected(size.error());
+        const Expected<TracedStage> stage = loadTraced(options.stage);
+        if (!stage) return tl::unexpected(stage.error());
+        Expected<Recorded> recorded = Recorded::record(*stage->traced, options, *size);
+        if (!recorded) return tl::unexpected(recorded.error());
+        return RecordedTelling{Subject(*stage, "relief trace " + options.stage + what), std::move(*recorded)};
+    }
+};
+
+Expected<void> tellVertex(const TraceOptions& options)
+{
+    const std::string words = "--vertex " + std::to_string(options.vertex);
+    const Expected<RecordedTelling> telling = RecordedTelling::record(options.render, " " + words);
+    if (!telling) return tl::unexpected(telling.error());
+    const Expected<relief::trace::VertexTrace> vertex =
+        relief::trace::traceVertex(*telling->recorded.frame, options.draw, static_cast<std::uint32_t>(options.vertex));
+    if (!vertex) return fail(words + ": " + vertex.error().message);
+    std::fputs(toText(tell(*vertex, telling->subject), options.all).c_str(), stdout);
+    return {};
+}
+
+Expected<void> tellFirstNan(const RenderOptions& options)
+{
+    const Expected<RecordedTelling> telling = RecordedTelling::record(options, " --first-nan");
+    if (!telling) return tl::unexpected(telling.error());
+    const std::optional<relief::trace::NotFinite> first = relief::trace::firstNotFinite(*telling->recorded.frame);
+    if (!first) {
+        std::printf("every value of every line is finite, in all pixels of %s\n", options.size.c_str());
+        return {};
+    }
+    std::printf("pixel %d,%d, draw %d: %s:%d: %s%s is %s\n  | %s\n", first->x, first->y, first->draw, first->site.file,
+                first->site.line, first->site.name, first->field.c_str(),
+                first->value != first->value ? "NaN" : "infinite", telling->subject.line(first->site).c_str());
+    return {};
+}
+
 Expected<Told> toldOf(const RenderOptions& options, const std::string& pixelText)
 {
     const Expected<Size> size = parseSize(options.size);
@@ -99,8 +145,17 @@ Expected<Told> toldOf(const RenderOptions& options, const std::string& pixelText
 
 }  // namespace
 
+Expected<PreparedStage> prepareTraced(const RenderOptions& options)
+{
+    const Expected<TracedStage> stage = loadTraced(options.stage);
+    if (!stage) return tl::unexpected(stage.error());
+    return prepare(*stage->traced, options);
+}
+
 Expected<void> traceStage(const TraceOptions& options)
 {
+    if (options.vertex >= 0) return tellVertex(options);
+    if (options.firstNan) return tellFirstNan(options.render);
     const Expected<Told> told = toldOf(options.render, options.pixel);
     if (!told) return tl::unexpected(told.error());
     if (!options.against.empty()) {

@@ -1,13 +1,16 @@
-// relief trace: the life of one pixel of a stage.
+// relief trace: the life of one pixel of a stage, or of one vertex, or where a NaN comes from.
 #pragma once
 
 #include <string>
 
 #include "error.h"
-#include "options.h"
+#include "prepare.h"
 
 namespace relief::samples {
 
 Expected<void> traceStage(const TraceOptions& options);
+
+// The stage that the options name, telling what its lines give: for `render --show NAME@LINE`.
+Expected<PreparedStage> prepareTraced(const RenderOptions& options);
 
 }  // namespace relief::samples

@@ -40,11 +40,152 @@ bool endsWithAnyOf(const std::string& name, std::initializer_list<std::string_vi
     return std::any_of(ends.begin(), ends.end(), [&](std::string_view end) { return lower.ends_with(end); });
 }
 
-class Teller
+// What a program says, of one of a quad's four pixels.
+class ProgramTeller
 {
 public:
-    Teller(const PixelTrace& itsTrace, const Subject& its)
-        : trace(itsTrace), subject(its), pixel((itsTrace.y & 1) * 2 + (itsTrace.x & 1))
+    ProgramTeller(const Subject& its, int ofQuad, bool tellsQuad = true)
+        : subject(its), pixel(ofQuad), hasQuad(tellsQuad)
+    {
+    }
+
+    Node program(const std::vector<Event>& events, const std::vector<t::SampleTrace>& textures)
+    {
+        Node node = leaf("program", events.empty() ? "its lines are not told" : "");
+        std::size_t next = 0;
+        addEvents(events, textures, next, node);
+        return node;
+    }
+
+    // A value here, and in the quad where it is not the same there.
+    Node valueNode(const std::string& label, const QuadValue& value) const
+    {
+        Node node = leaf(label, valueOf(value, pixel));
+        node.isInvalid = isInvalid(value, pixel);
+        if (value.kind == t::ValueKind::number && value.columns == 1 && value.rows >= 3) {
+            const std::array<float, 3> xyz = {value.number(pixel, 0), value.number(pixel, 1), value.number(pixel, 2)};
+            const float length = std::sqrt(xyz[0] * xyz[0] + xyz[1] * xyz[1] + xyz[2] * xyz[2]);
+            if (endsWithAnyOf(label, {"normal", "dir", "tangent", "binormal", "direction"}) ||
+                (std::abs(length - 1.0f) < 1e-3f && (xyz[0] < 0 || xyz[1] < 0 || xyz[2] < 0))) {
+                node.direction = xyz;
+            } else if (!endsWithAnyOf(label, {"pos", "position", "uv"}) && !label.starts_with("TEXCOORD")) {
+                node.color = xyz;
+            }
+        }
+        if (!hasQuad || isEverywhereSame(value)) return node;
+        Quad& quad = node.quad.emplace();
+        quad.pixel = pixel;
+        for (int p = 0; p < 4; ++p) quad.values[static_cast<std::size_t>(p)] = valueOf(value, p);
+        if (value.kind == t::ValueKind::number) {
+            quad.ddx = differenceOf(value, pixel, false);
+            quad.ddy = differenceOf(value, pixel, true);
+        }
+        return node;
+    }
+
+private:
+    // What a function's run says, up to its end.
+    void addEvents(const std::vector<Event>& events, const std::vector<t::SampleTrace>& textures, std::size_t& next,
+                   Node& to) const
+    {
+        while (next < events.size()) {
+            const Event& event = events[next++];
+            if (event.kind == Event::Kind::leave) return;
+            if (event.kind == Event::Kind::enter) {
+                Node call = leaf(event.site.function, place(event.site));
+                addEvents(events, textures, next, call);
+                call.isFolded = std::string_view(event.site.file) != subject.file;
+                call.isInvalid = std::any_of(call.children.begin(), call.children.end(),
+                                             [](const Node& child) { return child.isInvalid; });
+                if (!call.children.empty()) to.children.push_back(std::move(call));
+                continue;
+            }
+            if (event.kind == Event::Kind::sample) {
+                to.children.push_back(textureNode(textures[event.sample], event));
+                continue;
+            }
+            Node node = valueNode(std::to_string(event.site.line) + "  " + event.site.name + event.field, event.value);
+            node.code = subject.line(event.site);
+            to.children.push_back(std::move(node));
+        }
+    }
+
+    static std::string place(const t::Site& site) { return std::string(site.file) + ":" + std::to_string(site.line); }
+
+    Node textureNode(const t::SampleTrace& s, const Event& event) const
+    {
+        Node node = valueNode(std::to_string(s.site.line) + "  " + t::nameOf(s.function), event.value);
+        node.code = subject.line(s.site);
+        if (!s.isAsked) {
+            node.value = "not asked for";
+            return node;
+        }
+        const std::size_t dimensions = s.isCube ? 3 : 2;
+        node.children.push_back(leaf(
+            "texture", (s.isCube ? "cube map, " : "") + std::to_string(s.width) + "x" + std::to_string(s.height) + " " +
+                           wordsOf(s.format) + ", " + std::to_string(s.levelCount) + " levels; " + wordsOf(s.filter) +
+                           (s.isCube ? "" : ", " + wordsOf(s.addressU) + ", " + wordsOf(s.addressV))));
+        node.children.push_back(leaf(s.isCube ? "direction" : "uv", listOf(std::span(s.coordinate).first(dimensions))));
+        if (s.choosesLevel) {
+            if (s.function != t::TextureFunction::tex2Dlod) {
+                node.children.push_back(leaf("change", "to the right " + listOf(std::span(s.dx).first(dimensions)) +
+                                                           "; down " + listOf(std::span(s.dy).first(dimensions))));
+            }
+            std::string level =
+                number(s.levelOfDetail) + "; within limits " + number(static_cast<float>(s.fixedLevel) / 256.0f);
+            if (s.anisotropy > 1.0f) level += "; the footprint is " + number(s.anisotropy) + " times as long as wide";
+            node.children.push_back(leaf("level of detail", level));
+        }
+        if (s.function == t::TextureFunction::SampleCmp)
+            node.children.push_back(leaf("compared", number(s.extra) + " " + wordsOf(s.comparison) + " the texel"));
+        for (std::size_t i = 0; i < s.taps.size(); ++i) {
+            if (s.taps.size() == 1) {
+                addTap(s.taps[i], s, node);
+            } else {
+                Node tap = leaf("tap " + std::to_string(i), number(s.taps[i].u) + " " + number(s.taps[i].v));
+                addTap(s.taps[i], s, tap);
+                node.children.push_back(std::move(tap));
+            }
+        }
+        return node;
+    }
+
+    static void addTap(const t::TapTrace& tap, const t::SampleTrace& s, Node& to)
+    {
+        for (std::size_t l = 0; l < tap.levels.size(); ++l) {
+            const t::LevelTrace& level = tap.levels[l];
+            std::string value = std::to_string(level.width) + "x" + std::to_string(level.height);
+            if (tap.levels.size() > 1)
+                value += ", weight " + std::to_string(l == 0 ? 256 - tap.between : tap.between) + "/256";
+            if (!level.isNearest)
+                value +=
+                    ", " + std::to_string(level.weightX) + "/4096 right, " + std::to_string(level.weightY) + "/4096 up";
+            Node node = leaf("level " + std::to_string(level.level), value);
+            for (std::size_t i = 0; i < (level.isNearest ? 1u : 4u); ++i) {
+                const t::TexelTrace& texel = level.texels[i];
+                std::string words;
+                const bool isFloat = s.format == TexelFormat::rgba32Float || s.format == TexelFormat::r32Float;
+                for (std::size_t c = 0; c < 4 && !texel.isBorder && !isFloat; ++c)
+                    words += std::to_string(texel.codes[c]) + " ";
+                words += (texel.isBorder ? "the border: " : isFloat ? "" : "= ") + listOf(texel.value);
+                node.children.push_back(leaf("texel " + position(texel.x, texel.y), words));
+                node.children.back().color = {texel.value[0], texel.value[1], texel.value[2]};
+            }
+            to.children.push_back(std::move(node));
+        }
+    }
+
+protected:
+    const Subject& subject;
+    const int pixel;  // of the quad
+    const bool hasQuad;
+};
+
+class PixelTeller : private ProgramTeller
+{
+public:
+    PixelTeller(const PixelTrace& itsTrace, const Subject& its)
+        : ProgramTeller(its, (itsTrace.y & 1) * 2 + (itsTrace.x & 1)), trace(itsTrace)
     {
     }
 
@@ -176,11 +317,7 @@ private:
             return;
         }
         for (const t::InterpolatorTrace& i : f.interpolators) to.children.push_back(interpolatorNode(i));
-        Node program = leaf("program", "");
-        std::size_t next = 0;
-        addEvents(f, next, program);
-        if (f.events.empty()) program.value = "its lines are not told";
-        to.children.push_back(std::move(program));
+        to.children.push_back(program(f.events, f.textures));
         if (f.discarded) to.children.push_back(leaf("discarded", "by the program"));
         if (f.depthOut) to.children.push_back(leaf("SV_Depth", number(*f.depthOut)));
         if (f.coverageOut) to.children.push_back(leaf("SV_Coverage", std::to_string(*f.coverageOut)));
@@ -218,122 +355,6 @@ private:
         return node;
     }
 
-    // A value here, and in the quad where it is not the same there.
-    Node valueNode(const std::string& label, const QuadValue& value) const
-    {
-        Node node = leaf(label, valueOf(value, pixel));
-        node.isInvalid = isInvalid(value, pixel);
-        if (value.kind == t::ValueKind::number && value.columns == 1 && value.rows >= 3) {
-            const std::array<float, 3> xyz = {value.number(pixel, 0), value.number(pixel, 1), value.number(pixel, 2)};
-            const float length = std::sqrt(xyz[0] * xyz[0] + xyz[1] * xyz[1] + xyz[2] * xyz[2]);
-            if (endsWithAnyOf(label, {"normal", "dir", "tangent", "binormal", "direction"}) ||
-                (std::abs(length - 1.0f) < 1e-3f && (xyz[0] < 0 || xyz[1] < 0 || xyz[2] < 0))) {
-                node.direction = xyz;
-            } else if (!endsWithAnyOf(label, {"pos", "position", "uv"}) && !label.starts_with("TEXCOORD")) {
-                node.color = xyz;
-            }
-        }
-        if (isEverywhereSame(value)) return node;
-        Quad& quad = node.quad.emplace();
-        quad.pixel = pixel;
-        for (int p = 0; p < 4; ++p) quad.values[static_cast<std::size_t>(p)] = valueOf(value, p);
-        if (value.kind == t::ValueKind::number) {
-            quad.ddx = differenceOf(value, pixel, false);
-            quad.ddy = differenceOf(value, pixel, true);
-        }
-        return node;
-    }
-
-    // What a function's run says, up to its end.
-    void addEvents(const t::FragmentTrace& f, std::size_t& next, Node& to)
-    {
-        while (next < f.events.size()) {
-            const Event& event = f.events[next++];
-            if (event.kind == Event::Kind::leave) return;
-            if (event.kind == Event::Kind::enter) {
-                Node call = leaf(event.site.function, place(event.site));
-                addEvents(f, next, call);
-                call.isFolded = std::string_view(event.site.file) != subject.file;
-                call.isInvalid = std::any_of(call.children.begin(), call.children.end(),
-                                             [](const Node& child) { return child.isInvalid; });
-                if (!call.children.empty()) to.children.push_back(std::move(call));
-                continue;
-            }
-            if (event.kind == Event::Kind::sample) {
-                to.children.push_back(textureNode(f.textures[event.sample], event));
-                continue;
-            }
-            Node node = valueNode(std::to_string(event.site.line) + "  " + event.site.name + event.field, event.value);
-            node.code = subject.line(event.site);
-            to.children.push_back(std::move(node));
-        }
-    }
-
-    static std::string place(const t::Site& site) { return std::string(site.file) + ":" + std::to_string(site.line); }
-
-    Node textureNode(const t::SampleTrace& s, const Event& event) const
-    {
-        Node node = valueNode(std::to_string(s.site.line) + "  " + t::nameOf(s.function), event.value);
-        node.code = subject.line(s.site);
-        if (!s.isAsked) {
-            node.value = "not asked for";
-            return node;
-        }
-        const std::size_t dimensions = s.isCube ? 3 : 2;
-        node.children.push_back(leaf(
-            "texture", (s.isCube ? "cube map, " : "") + std::to_string(s.width) + "x" + std::to_string(s.height) + " " +
-                           wordsOf(s.format) + ", " + std::to_string(s.levelCount) + " levels; " + wordsOf(s.filter) +
-                           (s.isCube ? "" : ", " + wordsOf(s.addressU) + ", " + wordsOf(s.addressV))));
-        node.children.push_back(leaf(s.isCube ? "direction" : "uv", listOf(std::span(s.coordinate).first(dimensions))));
-        if (s.choosesLevel) {
-            if (s.function != t::TextureFunction::tex2Dlod) {
-                node.children.push_back(leaf("change", "to the right " + listOf(std::span(s.dx).first(dimensions)) +
-                                                           "; down " + listOf(std::span(s.dy).first(dimensions))));
-            }
-            std::string level =
-                number(s.levelOfDetail) + "; within limits " + number(static_cast<float>(s.fixedLevel) / 256.0f);
-            if (s.anisotropy > 1.0f) level += "; the footprint is " + number(s.anisotropy) + " times as long as wide";
-            node.children.push_back(leaf("level of detail", level));
-        }
-        if (s.function == t::TextureFunction::SampleCmp)
-            node.children.push_back(leaf("compared", number(s.extra) + " " + wordsOf(s.comparison) + " the texel"));
-        for (std::size_t i = 0; i < s.taps.size(); ++i) {
-            if (s.taps.size() == 1) {
-                addTap(s.taps[i], s, node);
-            } else {
-                Node tap = leaf("tap " + std::to_string(i), number(s.taps[i].u) + " " + number(s.taps[i].v));
-                addTap(s.taps[i], s, tap);
-                node.children.push_back(std::move(tap));
-            }
-        }
-        return node;
-    }
-
-    static void addTap(const t::TapTrace& tap, const t::SampleTrace& s, Node& to)
-    {
-        for (std::size_t l = 0; l < tap.levels.size(); ++l) {
-            const t::LevelTrace& level = tap.levels[l];
-            std::string value = std::to_string(level.width) + "x" + std::to_string(level.height);
-            if (tap.levels.size() > 1)
-                value += ", weight " + std::to_string(l == 0 ? 256 - tap.between : tap.between) + "/256";
-            if (!level.isNearest)
-                value +=
-                    ", " + std::to_string(level.weightX) + "/4096 right, " + std::to_string(level.weightY) + "/4096 up";
-            Node node = leaf("level " + std::to_string(level.level), value);
-            for (std::size_t i = 0; i < (level.isNearest ? 1u : 4u); ++i) {
-                const t::TexelTrace& texel = level.texels[i];
-                std::string words;
-                const bool isFloat = s.format == TexelFormat::rgba32Float || s.format == TexelFormat::r32Float;
-                for (std::size_t c = 0; c < 4 && !texel.isBorder && !isFloat; ++c)
-                    words += std::to_string(texel.codes[c]) + " ";
-                words += (texel.isBorder ? "the border: " : isFloat ? "" : "= ") + listOf(texel.value);
-                node.children.push_back(leaf("texel " + position(texel.x, texel.y), words));
-                node.children.back().color = {texel.value[0], texel.value[1], texel.value[2]};
-            }
-            to.children.push_back(std::move(node));
-        }
-    }
-
     Node targetNode(const t::TargetOutcome& o, const t::FragmentTrace& f, const t::DrawTrace& draw) const
     {
         Node node = leaf(f.targets.size() > 1 ? "target " + std::to_string(o.target) : "colour", listOf(o.returned));
@@ -356,8 +377,6 @@ private:
     }
 
     const PixelTrace& trace;
-    const Subject& subject;
-    const int pixel;  // of the quad
 };
 
 void writeText(const Node& node, bool all, int depth, std::string& text, const std::string& lastCode)
@@ -402,7 +421,24 @@ std::string Subject::line(const t::Site& site) const
 
 Node tell(const PixelTrace& trace, const Subject& subject)
 {
-    return Teller(trace, subject).tell();
+    return PixelTeller(trace, subject).tell();
+}
+
+Node tell(const t::VertexTrace& trace, const Subject& subject)
+{
+    Node all = leaf(subject.stage, "vertex " + std::to_string(trace.vertex) + " of draw " + std::to_string(trace.draw) +
+                                       ", " + trace.mesh);
+    all.children.push_back(ProgramTeller(subject, trace.lane, false).program(trace.events, trace.textures));
+    all.children.push_back(leaf("SV_POSITION", listOf(trace.clip) + ", clip space"));
+    std::string sides;
+    for (const std::string& side : trace.outside) sides += (sides.empty() ? "" : ", ") + side;
+    if (!sides.empty()) all.children.push_back(leaf("outside of the view", sides));
+    if (trace.clip[3] > 0) {
+        all.children.push_back(leaf("on the screen", pixels(trace.position[0]) + "," + pixels(trace.position[1]) +
+                                                         ", depth " + number(trace.depth) + ", 1/w " +
+                                                         number(trace.invW)));
+    }
+    return all;
 }
 
 std::string toText(const Node& node, bool all)

@@ -8,6 +8,7 @@
 
 #include "trace/pixel_trace.h"
 #include "trace/traced_stage.h"
+#include "trace/vertex_trace.h"
 
 namespace relief::samples::trace {
 
@@ -46,6 +47,7 @@ struct Node
 };
 
 Node tell(const PixelTrace& trace, const Subject& subject);
+Node tell(const ::relief::trace::VertexTrace& trace, const Subject& subject);
 
 // Without what is folded, or with all of it.
 std::string toText(const Node& node, bool all);

@@ -17,6 +17,7 @@
 #include "live/watch.h"
 #include "trace/instrument.h"
 #include "trace/pixel_trace.h"
+#include "trace/variable.h"
 
 #include "live_command.h"
 
@@ -106,6 +107,62 @@ TEST_CASE("trace: an instrumented stage has the book's hash, and a trace ends at
     CHECK(stages >= 5);
     CHECK(told > pixels / 3);
     CHECK(textures > pixels / 2);
+}
+
+TEST_CASE("trace: a line's value over the picture is what the traces of its pixels say")
+{
+    const Stage& stage = *tracedStage("1.25");
+    Picture followed(stage, 96, 54, 1);
+    std::mt19937 random(7);
+    const auto check = [&](const std::string& view, int line, const std::string& name) {
+        CAPTURE(view);
+        Picture picture(stage, 96, 54, 1);
+        const Expected<Inspection> seen = relief::trace::inspectVariable(picture.frame, view);
+        REQUIRE_MESSAGE(seen.has_value(), seen.error().message);
+        int compared = 0;
+        for (int i = 0; i < 40; ++i) {
+            const int x = static_cast<int>(random() % 96), y = static_cast<int>(random() % 54);
+            const auto pixel = static_cast<std::size_t>(y * 96 + x);
+            const auto trace = relief::trace::tracePixel(followed.frame, x, y);
+            REQUIRE(trace.has_value());
+            const relief::trace::QuadValue* last = nullptr;
+            for (const auto& draw : trace->draws) {
+                for (const auto& primitive : draw.primitives) {
+                    for (const auto& piece : primitive.pieces) {
+                        // A quad's program also runs for those of its pixels that are not drawn.
+                        using Verdict = relief::trace::SampleOutcome::Verdict;
+                        if (!piece.fragment || piece.fragment->samples[0].verdict != Verdict::drawn) continue;
+                        for (const auto& event : piece.fragment->events) {
+                            if (event.site.line == line && event.site.name + event.field == name) last = &event.value;
+                        }
+                    }
+                }
+            }
+            CHECK((last != nullptr) == (seen->drawn[pixel] != 0));
+            if (last == nullptr) continue;
+            for (int c = 0; c < last->rows; ++c)
+                CHECK(seen->values[pixel][c] == last->number((y & 1) * 2 + (x & 1), c));
+            ++compared;
+        }
+        CHECK(compared > 10);
+    };
+    check("albedo@82", 82, "albedo");
+    check("i.uv@77", 77, "i.uv");
+
+    Picture picture(stage, 96, 54, 1);
+    const auto shown = [&](const std::string& view) { return *relief::trace::inspectVariable(picture.frame, view); };
+    CHECK(shown("i.normal@73:length").lowest == doctest::Approx(1.0f).epsilon(1e-5));
+    CHECK(shown("i.normal@73:length").highest == doctest::Approx(1.0f).epsilon(1e-5));
+    CHECK(shown("i.normal@73:unit").lowest == -1.0f);
+    CHECK(shown("viewDir@79:sign").showAs == ShowAs::scale);
+    CHECK(shown("viewDir@79:z").highest < 0.0f);
+    const auto refusal = [&](const std::string& view) {
+        return relief::trace::inspectVariable(picture.frame, view).error().message;
+    };
+    CHECK(refusal("albedo@83").find("albedo@81, albedo@82") != std::string::npos);
+    CHECK(refusal("albedo@x").find("write NAME@LINE") != std::string::npos);
+    CHECK(refusal("albedo@82:no").find(":length") != std::string::npos);
+    CHECK_FALSE(relief::trace::firstNotFinite(picture.frame).has_value());
 }
 
 // --- what the instrumenter understands ---
@@ -224,6 +281,36 @@ TEST_CASE("trace: JSON, a page, and a shader of one's own")
     CHECK(runCommand(folder, what + " --against 1.09").out.find("My shader") != std::string::npos);
 }
 
+TEST_CASE("trace: where a NaN comes from, and a vertex")
+{
+    const TemporaryFolder folder;
+    REQUIRE(runCommand(folder, "new my_shader.cpp").code == 0);
+    CHECK(runCommand(folder, "trace my_shader.cpp --first-nan --size 64x36").out ==
+          "every value of every line is finite, in all pixels of 64x36\n");
+
+    std::string text = contents(folder / "my_shader.cpp");
+    const std::string before = "        const Float lambert";
+    const std::size_t at = text.find(before);
+    REQUIRE(at != std::string::npos);
+    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
+    text.insert(at, "        const Float root = sqrt(i.uv.x - 0.5f);\n");
+    std::ofstream(folder / "my_shader.cpp") << text;
+    const Outcome nan = runCommand(folder, "trace my_shader.cpp --first-nan --size 64x36");
+    REQUIRE_MESSAGE(nan.code == 0, nan.err);
+    CHECK(nan.out.find("my_shader.cpp:" + std::to_string(line) + ": root is NaN") != std::string::npos);
+    const std::string pixel = nan.out.substr(6, nan.out.find(',', nan.out.find(',') + 1) - 6);
+    const Outcome told = runCommand(folder, "trace my_shader.cpp --size 64x36 --pixel " + pixel);
+    CHECK(told.out.find("root: NaN   <- not finite") != std::string::npos);
+
+    const Outcome vertex = runCommand(folder, "trace my_shader.cpp --vertex 7");
+    CHECK(vertex.out.find("vertex 7 of draw 0") != std::string::npos);
+    CHECK(vertex.out.find("| i.uv = v.uv;") != std::string::npos);
+    CHECK(vertex.out.find("SV_POSITION: ") != std::string::npos);
+    CHECK(
+        runCommand(folder, "render my_shader.cpp --show lambert@" + std::to_string(line + 1) + " --size 64x36").code ==
+        0);
+}
+
 TEST_CASE("trace: bad input is one line and exit code 2")
 {
     const TemporaryFolder folder;
@@ -242,5 +329,9 @@ TEST_CASE("trace: bad input is one line and exit code 2")
     refused("9.99 --pixel 1,1", "9.99");
     refused("1.09 --pixel 1,1 --size 0x5", "--size 0x5");
     refused("1.09 --pixel 1,1 --set no=1 --size 64x36", "no property 'no'");
+    refused("1.09 --vertex 4000000", "draw 0 has the vertices 0 to 3, and not 4000000");
+    refused("1.09 --vertex 0 --draw 9", "there is no draw 9 among 1");
+    refused("1.09 --vertex 0 --first-nan", "--help");
+    refused("1.09", "--help");
     refused("1.09 --pixel 1,1 --size 64x36 --html missing/folder/page.html", "missing/folder");
 }
