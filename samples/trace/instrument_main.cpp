@@ -16,7 +16,7 @@ bool holdsShaders(const fs::path& header)
 {
     const std::string name = header.filename().string(), folder = header.parent_path().filename().string();
     if (folder == "shading") return name != "camera.h" && name != "environment.h" && name != "loop.h";
-    return folder == "common" && (name == "triplanar_methods.h" || name == "false_color.h");
+    return folder == "common" && (name == "triplanar_methods.h" || name == "false_color.h" || name == "screen_quad.h");
 }
 
 bool copyHeader(const fs::path& from, const fs::path& to, const std::string& name)

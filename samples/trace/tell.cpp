@@ -321,7 +321,9 @@ private:
         if (f.discarded) to.children.push_back(leaf("discarded", "by the program"));
         if (f.depthOut) to.children.push_back(leaf("SV_Depth", number(*f.depthOut)));
         if (f.coverageOut) to.children.push_back(leaf("SV_Coverage", std::to_string(*f.coverageOut)));
-        for (const t::TargetOutcome& target : f.targets) to.children.push_back(targetNode(target, f, draw));
+        for (const t::TargetOutcome& target : f.targets) {
+            if (!f.discarded) to.children.push_back(targetNode(target, f, draw));
+        }
     }
 
     Node sampleNode(const t::FragmentTrace& f, const t::DrawTrace& draw, std::size_t s) const

@@ -196,7 +196,8 @@ TEST_CASE("trace: what a statement gives a value is told, and nothing else")
         {"/* a = 1; */ b = 2;", "b"},
     };
     const std::regex seen(R"re(see\(::relief::trace::Site\{"f",(\d+),"F","([^"]*)"\})re");
-    for (const auto& [statement, names] : cases) {
+    for (const auto& [given, names] : cases) {
+        const std::string statement = given;
         CAPTURE(statement);
         const std::string text = samples::trace::instrumented("void F()\n{\n" + statement + "\n}\n", "f");
         CAPTURE(text);
