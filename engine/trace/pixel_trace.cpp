@@ -429,10 +429,10 @@ void shadeFollowed(const void* program, std::span<ShadedBlock> blocks, const Tri
 
 std::vector<std::string> planesOf(unsigned codes)
 {
-    static constexpr std::pair<unsigned, const char*> kPlanes[] = {{vertex_code::outsideNear, "near plane"},
-                                                                   {vertex_code::outsideFar, "far plane"},
-                                                                   {vertex_code::beyondGuardBand, "guard band"},
-                                                                   {vertex_code::smallW, "w > 0"},
+    static constexpr std::pair<unsigned, const char*> kPlanes[] = {{vertex_code::outsideNear, "the near plane"},
+                                                                   {vertex_code::outsideFar, "the far plane"},
+                                                                   {vertex_code::beyondGuardBand, "the guard band"},
+                                                                   {vertex_code::smallW, "w = 0"},
                                                                    {vertex_code::beyondOwnPlane, "SV_ClipDistance"}};
     std::vector<std::string> names;
     for (const auto& [code, name] : kPlanes) {

@@ -51,5 +51,6 @@ Expected<StageSource> findSource(const std::string& stage);
 std::string sampleFolder();  // of the sources
 std::string liveFolder();    // where programs make folders for their objects
 std::string linkerPath();
+std::string programPath();  // of the program that has all commands and no stages
 
 }  // namespace relief::samples::live

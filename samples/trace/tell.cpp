@@ -253,7 +253,7 @@ private:
         if (!p.clippedBy.empty()) {
             std::string planes;
             for (const std::string& plane : p.clippedBy) planes += (planes.empty() ? "" : ", ") + plane;
-            node.children.push_back(leaf("clipped", "at the " + planes + ", into " + std::to_string(p.pieces.size()) +
+            node.children.push_back(leaf("clipped", "beyond " + planes + "; into " + std::to_string(p.pieces.size()) +
                                                         (p.pieces.size() == 1 ? " triangle" : " triangles")));
         }
         int number = 0;

@@ -45,7 +45,9 @@ bool Application::step()
         redraws = kRest;
     }
     if (viewer->update()) redraws = kRest;
+    const int telling = interface->descriptor();
     interface->update();
+    if (interface->descriptor() != telling) redraws = kRest;
     if (redraws == 0) return false;
     --redraws;
     window.setTitle("Relief: " + viewer->name());
@@ -58,7 +60,9 @@ bool Application::step()
 
 void Application::wait()
 {
-    alarm->arm(viewer->descriptors(), viewer->patience());
+    std::vector<int> descriptors = viewer->descriptors();
+    if (interface->descriptor() >= 0) descriptors.push_back(interface->descriptor());
+    alarm->arm(std::move(descriptors), viewer->patience());
     SDL_WaitEvent(nullptr);
 }
 

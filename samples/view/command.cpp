@@ -20,37 +20,59 @@ std::string word(const std::string& text)
     return !text.empty() && std::all_of(text.begin(), text.end(), plain) ? text : quoted(text);
 }
 
+void add(std::string& command, const std::string& option, const std::string& value)
+{
+    command += " " + option + " " + word(value);
+}
+
+std::string nameOf(const live::StageSource& source)
+{
+    return word(source.id.empty() ? source.path : source.id);
+}
+
+// What a picture depends on.
+void addPicture(std::string& command, const live::Look& look)
+{
+    const live::Look usual;
+    for (const std::string& setting : look.settings) add(command, "--set", setting);
+    // With =, since a number may begin with a minus.
+    if (look.camera) command += " --camera=" + cameraText(*look.camera);
+    const InputFiles& files = look.files;
+    if (!files.mesh.empty()) add(command, "--mesh", files.mesh);
+    for (std::size_t i = 0; i < kTextureOptions.size(); ++i) {
+        if (!files.textures[i].empty()) add(command, std::string("--") + kTextureOptions[i], files.textures[i]);
+    }
+    for (const std::string& setting : files.import) add(command, "--import", setting);
+    if (look.showTangents) {
+        command += " --show-tangents";
+        if (look.tangentScale != usual.tangentScale) add(command, "--tangent-scale", exactText(look.tangentScale));
+        if (look.tangentOffset != usual.tangentOffset) add(command, "--tangent-offset", exactText(look.tangentOffset));
+    }
+    if (look.tileSize != usual.tileSize) add(command, "--tile", std::to_string(look.tileSize));
+    if (look.samples != usual.samples) add(command, "--samples", std::to_string(look.samples));
+    if (look.threads != usual.threads) add(command, "--threads", std::to_string(look.threads));
+    if (look.width != usual.width || look.height != usual.height)
+        add(command, "--size", std::to_string(look.width) + "x" + std::to_string(look.height));
+}
+
 }  // namespace
 
 std::string renderCommand(const live::StageSource& source, const live::Look& look, const std::string& output)
 {
-    const live::Look usual;
-    std::string command = "./relief render " + word(source.id.empty() ? source.path : source.id);
-    const auto add = [&](const std::string& option, const std::string& value) {
-        command += " " + option + " " + word(value);
-    };
-    for (const std::string& setting : look.settings) add("--set", setting);
-    // With =, since a number may begin with a minus.
-    if (look.camera) command += " --camera=" + cameraText(*look.camera);
-    const InputFiles& files = look.files;
-    if (!files.mesh.empty()) add("--mesh", files.mesh);
-    for (std::size_t i = 0; i < kTextureOptions.size(); ++i) {
-        if (!files.textures[i].empty()) add(std::string("--") + kTextureOptions[i], files.textures[i]);
-    }
-    for (const std::string& setting : files.import) add("--import", setting);
-    if (look.showTangents) {
-        command += " --show-tangents";
-        if (look.tangentScale != usual.tangentScale) add("--tangent-scale", exactText(look.tangentScale));
-        if (look.tangentOffset != usual.tangentOffset) add("--tangent-offset", exactText(look.tangentOffset));
-    }
-    if (!look.show.empty()) add("--show", look.show);
-    if (look.tileSize != usual.tileSize) add("--tile", std::to_string(look.tileSize));
-    if (look.samples != usual.samples) add("--samples", std::to_string(look.samples));
-    if (look.threads != usual.threads) add("--threads", std::to_string(look.threads));
-    if (look.width != usual.width || look.height != usual.height) {
-        add("--size", std::to_string(look.width) + "x" + std::to_string(look.height));
-    }
-    add("-o", output);
+    std::string command = "./relief render " + nameOf(source);
+    addPicture(command, look);
+    if (!look.show.empty()) add(command, "--show", look.show);
+    add(command, "-o", output);
+    return command;
+}
+
+std::string traceCommand(const std::string& program, const live::StageSource& source, const live::Look& look, int x,
+                         int y, const std::string& page)
+{
+    std::string command = word(program) + " trace " + nameOf(source);
+    add(command, "--pixel", std::to_string(x) + "," + std::to_string(y));
+    addPicture(command, look);
+    add(command, "--html", page);
     return command;
 }
 

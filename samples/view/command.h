@@ -1,4 +1,4 @@
-// The command that renders what the window shows.
+// The commands that render what the window shows, and that tell the life of one of its pixels.
 #pragma once
 
 #include <string>
@@ -9,5 +9,9 @@ namespace relief::samples {
 
 // For a shell, in the folder that holds `relief`: "./relief render 1.12 --set bumpScale=2 -o picture.png".
 std::string renderCommand(const live::StageSource& source, const live::Look& look, const std::string& output);
+
+// "/path/relief_view trace 1.12 --pixel 3,4 --html page.html".
+std::string traceCommand(const std::string& program, const live::StageSource& source, const live::Look& look, int x,
+                         int y, const std::string& page);
 
 }  // namespace relief::samples

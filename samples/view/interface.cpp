@@ -88,6 +88,13 @@ void Interface::update()
 {
     if (newScale) window.setScale(*newScale);
     newScale.reset();
+    if (const std::optional<Expected<std::string>> told = life.poll()) {
+        if (*told) {
+            openPage(**told);
+        } else {
+            notice = told->error().message;
+        }
+    }
     if (!turn || dialog != Dialog::recording) return;
     const Expected<void> written = turn->update(viewer);
     if (written && !turn->done()) return;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "view/pixel_life.h"
 #include "view/turn.h"
 #include "view/viewer.h"
 #include "view/window.h"
@@ -23,6 +24,9 @@ public:
     void update();                      // after Viewer::update()
     void draw();                        // between Window's beginFrame() and endFrame()
     bool wantsMore() const { return thumbnailsWanted; }
+
+    // Call update() when it is readable; -1: nothing.
+    int descriptor() const { return life.descriptor(); }
 
     bool running = true;
 
@@ -96,6 +100,7 @@ private:
     void dropped();
     void press(int key, bool control, bool shift);
     void copyCommand();
+    void openPage(const std::string& path);
 
     Viewer& viewer;
     Window& window;
@@ -114,6 +119,7 @@ private:
     bool magnifying = false, draggingDivider = false;
     int magnification = 16;
     std::optional<Viewer::Point> pointed;  // the pixel below the mouse
+    PixelLife life;                        // of the kept pixel
 
     Dialog dialog = Dialog::none;
     std::string dialogProblem, savePath, turnFolder;

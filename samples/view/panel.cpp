@@ -95,11 +95,16 @@ void Interface::heading()
     const bool there = std::filesystem::exists(pathOf(page), ignored);
     ImGui::BeginDisabled(!there);
     if (button("Read its page", "page", there ? "Opens the stage's page of the book" : "The page is not there")) {
-        const std::string address =
-            "file://" + std::filesystem::weakly_canonical(pathOf(page), ignored).generic_string();
-        notice = SDL_OpenURL(address.c_str()) == 0 ? "Opened " + address : "Nothing opens " + address;
+        openPage(page);
     }
     ImGui::EndDisabled();
+}
+
+void Interface::openPage(const std::string& path)
+{
+    std::error_code ignored;
+    const std::string address = "file://" + std::filesystem::weakly_canonical(pathOf(path), ignored).generic_string();
+    notice = SDL_OpenURL(address.c_str()) == 0 ? "Opened " + address : "Nothing opens " + address;
 }
 
 bool Interface::section(const char* title, bool open)

@@ -288,21 +288,62 @@ TEST_CASE("view: the magnifier, and a pixel that is kept over a save")
 }
 
 // In place of the program that opens pages: one that writes down what it is given.
+class PageOpener
+{
+public:
+    PageOpener() : path(::getenv("PATH"))
+    {
+        const std::filesystem::path program = folder / "xdg-open";
+        std::ofstream(program) << "#!/bin/sh\nprintf '%s' \"$1\" >'" << (folder / "opened").string() << "'\n";
+        std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+        ::setenv("PATH", (folder.path.string() + ":" + path).c_str(), 1);
+    }
+    ~PageOpener() { ::setenv("PATH", path.c_str(), 1); }
+
+    std::string opened() const
+    {
+        std::stringstream address;
+        address << std::ifstream(folder / "opened").rdbuf();
+        return address.str();
+    }
+
+private:
+    const TemporaryFolder folder;
+    const std::string path;
+};
+
 TEST_CASE("view: a stage's page is opened")
 {
-    const TemporaryFolder folder;
-    const std::filesystem::path program = folder / "xdg-open", opened = folder / "opened";
-    std::ofstream(program) << "#!/bin/sh\nprintf '%s' \"$1\" >'" << opened.string() << "'\n";
-    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-    const std::string path = ::getenv("PATH");
-    ::setenv("PATH", (folder.path.string() + ":" + path).c_str(), 1);
+    const PageOpener pages;
     const Hands hands("1.12");
     hands.click("page");
-    ::setenv("PATH", path.c_str(), 1);
-    std::stringstream address;
-    address << std::ifstream(opened).rdbuf();
-    CHECK(address.str().starts_with("file:///"));
-    CHECK(address.str().ends_with("/docs/bumpiness/12_bump_scale.md"));
+    CHECK(pages.opened().starts_with("file:///"));
+    CHECK(pages.opened().ends_with("/docs/bumpiness/12_bump_scale.md"));
+}
+
+TEST_CASE("view: the life of a kept pixel is told on a page")
+{
+    const PageOpener pages;
+    const Own own;
+    const Hands hands(own.path);
+    const Hands::Place p = hands.place("picture");
+    const float x = (p.left + p.right) / 2.0f, y = (p.top + p.bottom) / 2.0f;
+    hands.key(SDLK_m, 0, false);
+    hands.move(x, y);
+    hands.hold(true, x, y);
+    hands.hold(false, x, y);
+    hands.key(SDLK_m);
+    REQUIRE(hands.viewer().kept);
+    hands.click("kept.life");
+    REQUIRE(hands.until([&] { return pages.opened().ends_with(".html"); }));
+    const std::string path = pages.opened().substr(std::string("file://").size());
+    std::stringstream page;
+    page << std::ifstream(path).rdbuf();
+    const Viewer::Point kept = *hands.viewer().kept;
+    CHECK(page.str().find("The life of pixel " + std::to_string(kept.x) + "," + std::to_string(kept.y)) !=
+          std::string::npos);
+    CHECK(page.str().find("const Float lambert = saturate(") != std::string::npos);
+    std::filesystem::remove(path);
 }
 
 TEST_CASE("view: copy, save, record")
