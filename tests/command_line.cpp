@@ -512,9 +512,10 @@ TEST_CASE("command line: bench --peer draws the test scenes beside Mesa, or says
     checkRefused(folder.path, "bench --alone mesa", {"--peer"});
     checkRefused(folder.path, "bench --peer mesa --alone nobody", {"nobody"});
 
-    std::vector<std::string> scenes = {"clear",     "flat_quad",       "trilinear_plane", "anisotropic_plane",
-                                       "layers_32", "small_triangles", "stage_1.25",      "stage_2.06",
-                                       "stage_4.07"};
+    std::vector<std::string> scenes = {"clear",      "flat_quad",       "trilinear_plane", "anisotropic_plane",
+                                       "layers_32",  "small_triangles", "stage_1.25",      "stage_2.06",
+                                       "stage_4.07", "multisampled",    "shadowed",        "reflecting",
+                                       "deferred"};
 #if !defined(RELIEF_SHORT_TESTS)
     scenes.insert(scenes.end(), {"million_triangles", "first_frame"});
 #endif

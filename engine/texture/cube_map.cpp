@@ -263,6 +263,9 @@ void fill(MipLevel& level, std::span<const MipLevel> faces)
             std::copy_n(face.texel<Channel>(0, y), side * 4, level.texel<Channel>(0, CubeMap::rowOf(f, y, side)));
     }
     fillFrames<Channel>(level);
+    // Looks whether alpha is 1 everywhere, frames included, and writes over the outer ones.
+    level.fillFrame();
+    fillFrames<Channel>(level);
 }
 
 }  // namespace

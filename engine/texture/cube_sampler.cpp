@@ -19,7 +19,7 @@ struct CubePlace
 };
 
 // The frame goes on where the face ends, as a repeated texture does.
-inline Pairs pairsOn(const CubePlace& place, const MipLevel& level)
+[[gnu::always_inline]] inline Pairs pairsOn(const CubePlace& place, const MipLevel& level)
 {
     const TextureSide& side = level.sideU();
     const AddressMode mode = place.sampler.seamless ? AddressMode::wrap : AddressMode::clamp;
@@ -33,7 +33,7 @@ inline Int texelIndexOn(const CubePlace& place, const MipLevel& level, Int x, In
 }
 
 template <class Fetch>
-inline float4 nearestOn(const CubePlace& place, const MipLevel& level)
+[[gnu::always_inline]] inline float4 nearestOn(const CubePlace& place, const MipLevel& level)
 {
     const Int x = nearestPosition(AddressMode::clamp, place.u, level.sideU());
     const Int y = nearestPosition(AddressMode::clamp, place.v, level.sideU());
@@ -41,14 +41,14 @@ inline float4 nearestOn(const CubePlace& place, const MipLevel& level)
 }
 
 template <class Fetch>
-inline float4 bilinearOn(const CubePlace& place, const MipLevel& level, const Pairs& at)
+[[gnu::always_inline]] inline float4 bilinearOn(const CubePlace& place, const MipLevel& level, const Pairs& at)
 {
     return Fetch::bilinear(level, texelIndexOn(place, level, at.x, at.y), at.fx, at.fy);
 }
 
-inline bool leavesOutAlpha(const CubePlace&, const MipLevel&)
+inline bool leavesOutAlpha(const CubePlace&, const MipLevel& level)
 {
-    return false;
+    return leavesOut::alpha && level.isOpaque();
 }
 
 template <class Fetch>
@@ -101,7 +101,7 @@ inline bool usesMipLevels(const samplerCUBE& s)
     return s.mipmaps && textureOf(s).levelCount() > 1;
 }
 
-float4 sampleAtLevel(const samplerCUBE& s, const Meeting& at, Float lod)
+[[gnu::always_inline]] inline float4 sampleAtLevel(const samplerCUBE& s, const Meeting& at, Float lod)
 {
     const CubeMap& texture = textureOf(s);
     const Int fixed = usesMipLevels(s) ? fixedLevel(s, texture.levelCount(), lod) : Int(0);
@@ -114,7 +114,8 @@ float4 sampleAtLevel(const samplerCUBE& s, const Meeting& at, Float lod)
 }
 
 // By the longer of the two changes, in texels of level 0.
-float4 sampleByChange(const samplerCUBE& s, const float3& direction, const float3& dx, const float3& dy, Float bias)
+[[gnu::always_inline]] inline float4 sampleByChange(const samplerCUBE& s, const float3& direction, const float3& dx,
+                                                    const float3& dy, Float bias)
 {
     const Meeting at(direction);
     const float perUnit = 0.5f * static_cast<float>(textureOf(s).side());
@@ -122,7 +123,7 @@ float4 sampleByChange(const samplerCUBE& s, const float3& direction, const float
     return sampleAtLevel(s, at, limitedIsotropicLevel(square) + limitBias(s, bias));
 }
 
-float4 sampleByDifferences(const samplerCUBE& s, const float3& direction, Float bias)
+[[gnu::always_inline]] inline float4 sampleByDifferences(const samplerCUBE& s, const float3& direction, Float bias)
 {
     const float3 d = finite(direction);
     if (usesMipLevels(s)) return sampleByChange(s, d, ddx(d), ddy(d), bias);

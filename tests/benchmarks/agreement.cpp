@@ -25,8 +25,9 @@ double distanceToLine(glm::dvec2 point, glm::dvec2 a, glm::dvec2 b)
     return glm::length(point - a - along * part);
 }
 
-bool isNearEdge(const SceneData& scene, glm::dvec2 size, glm::dvec2 pixelCentre)
+bool isNearEdge(const SceneData& scene, glm::dvec2 size, glm::dvec2 pixelCentre, int samples)
 {
+    const SamplePattern& pattern = *samplePattern(samples);
     const auto isNear = [&](const samples::Object& object) {
         const glm::dmat4 clipFromObject = scene.clipFromWorld * object.worldFromObject;
         const Mesh& mesh = *object.mesh;
@@ -34,7 +35,11 @@ bool isNearEdge(const SceneData& scene, glm::dvec2 size, glm::dvec2 pixelCentre)
             const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
             const auto a = onScreen(clipFromObject, mesh.positions[mesh.indices[i]], size);
             const auto b = onScreen(clipFromObject, mesh.positions[mesh.indices[next]], size);
-            if (a && b && distanceToLine(pixelCentre, *a, *b) <= 1.0 / 256.0) return true;
+            if (!a || !b) continue;
+            for (int sample = 0; sample < samples; ++sample) {
+                const auto& [x, y] = pattern.position[static_cast<std::size_t>(sample)];
+                if (distanceToLine(pixelCentre + glm::dvec2(x, y) / 256.0, *a, *b) <= 1.0 / 256.0) return true;
+            }
         }
         return false;
     };
@@ -44,7 +49,7 @@ bool isNearEdge(const SceneData& scene, glm::dvec2 size, glm::dvec2 pixelCentre)
 
 }  // namespace
 
-Agreement agreement(const SceneData& scene, int width, int height, std::span<const std::uint32_t> ours,
+Agreement agreement(const SceneData& scene, int width, int height, int samples, std::span<const std::uint32_t> ours,
                     std::span<const std::uint32_t> theirs)
 {
     Agreement result;
@@ -54,7 +59,7 @@ Agreement agreement(const SceneData& scene, int width, int height, std::span<con
         if ((ours[i] >> 24 == 0) != (theirs[i] >> 24 == 0)) {
             const glm::dvec2 centre(static_cast<double>(i % columns) + 0.5, static_cast<double>(i / columns) + 0.5);
             ++result.coverageDiffers;
-            result.awayFromEdges += !isNearEdge(scene, {width, height}, centre);
+            result.awayFromEdges += !isNearEdge(scene, {width, height}, centre, samples);
         }
         int difference = 0;
         for (int shift = 0; shift < 24; shift += 8) {

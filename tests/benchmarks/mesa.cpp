@@ -22,15 +22,30 @@ layout(location = 0) out vec4 result;
 
 const char* const kMesasLevel = R"glsl(
 vec4 tex2D(sampler2D s, vec2 uv) { return texture(s, uv); }
+vec4 texCUBE(samplerCube s, vec3 direction) { return texture(s, direction); }
 )glsl";
 
-// Without anisotropy (see texture/level_of_detail.h).
+// Without anisotropy (see texture/level_of_detail.h); of a cube map on the face of each direction (cube_sampler.cpp).
 const char* const kExactLevel = R"glsl(
 vec4 tex2D(sampler2D s, vec2 uv)
 {
     vec2 size = vec2(textureSize(s, 0));
     vec2 dX = dFdxFine(uv) * size, dY = dFdyFine(uv) * size;
     return textureLod(s, uv, 0.5 * log2(max(dot(dX, dX), dot(dY, dY))));
+}
+vec3 onFace(vec3 direction, vec3 v)
+{
+    vec3 a = abs(direction);
+    return a.z >= a.x && a.z >= a.y ? v : a.y >= a.x ? v.xzy : v.zyx;
+}
+vec4 texCUBE(samplerCube s, vec3 direction)
+{
+    vec3 along = onFace(direction, direction);
+    vec3 alongX = onFace(direction, dFdxFine(direction)), alongY = onFace(direction, dFdyFine(direction));
+    vec2 place = along.xy / along.z;
+    float perUnit = 0.5 * float(textureSize(s, 0).x) / along.z;
+    vec2 dX = (alongX.xy - place * alongX.z) * perUnit, dY = (alongY.xy - place * alongY.z) * perUnit;
+    return textureLod(s, direction, 0.5 * log2(max(dot(dX, dX), dot(dY, dY))));
 }
 )glsl";
 
@@ -76,6 +91,34 @@ void addAttribute(GLuint vertexArray, GLuint location, GLint components, const s
     gl.EnableVertexArrayAttrib(vertexArray, location);
 }
 
+void clearBound(const glm::vec4& color)
+{
+    gl.DepthMask(GL_TRUE);
+    gl.ClearColor(color.r, color.g, color.b, color.a);
+    gl.ClearDepthf(1.0f);
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+Expected<unsigned> checkedTarget(GLuint framebuffer, int width, int height)
+{
+    if (gl.CheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return framebuffer;
+    return fail("bench --peer: Mesa refuses a target of " + std::to_string(width) + "x" + std::to_string(height) +
+                "; choose a smaller --size");
+}
+
+// A framebuffer that is no texture. Without multisampling the number of samples is 0.
+Expected<unsigned> makePicture(int width, int height, int samples)
+{
+    GLuint framebuffer = 0, buffers[2] = {0, 0};
+    gl.CreateFramebuffers(1, &framebuffer);
+    gl.CreateRenderbuffers(2, buffers);
+    gl.NamedRenderbufferStorageMultisample(buffers[0], samples, GL_RGBA8, width, height);
+    gl.NamedRenderbufferStorageMultisample(buffers[1], samples, GL_DEPTH_COMPONENT32F, width, height);
+    gl.NamedFramebufferRenderbuffer(framebuffer, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
+    gl.NamedFramebufferRenderbuffer(framebuffer, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
+    return checkedTarget(framebuffer, width, height);
+}
+
 }  // namespace
 
 // --- the context and its target ---
@@ -85,6 +128,7 @@ struct Mesa::Context
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
     int width = 0, height = 0;
+    GLuint picture = 0, multisampled = 0;  // framebuffers; the second is 0 where a pixel has one sample
     LevelOfDetail levelOfDetail = LevelOfDetail::mesas;
 
     Context() = default;
@@ -127,23 +171,14 @@ Expected<Mesa> Mesa::create(int width, int height, LevelOfDetail levelOfDetail)
     context->height = height;
     context->levelOfDetail = levelOfDetail;
 
-    GLuint target = 0, buffers[2] = {0, 0};
-    gl.CreateFramebuffers(1, &target);
-    gl.CreateRenderbuffers(2, buffers);
-    gl.NamedRenderbufferStorage(buffers[0], GL_RGBA8, width, height);
-    gl.NamedRenderbufferStorage(buffers[1], GL_DEPTH_COMPONENT32F, width, height);
-    gl.NamedFramebufferRenderbuffer(target, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
-    gl.NamedFramebufferRenderbuffer(target, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
-    if (gl.CheckNamedFramebufferStatus(target, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        return fail("bench --peer: Mesa refuses a target of " + std::to_string(width) + "x" + std::to_string(height) +
-                    "; choose a smaller --size");
-    }
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target);
-    gl.Viewport(0, 0, width, height);
+    const Expected<unsigned> picture = makePicture(width, height, 0);
+    if (!picture) return tl::unexpected(picture.error());
+    context->picture = *picture;
     gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     gl.FrontFace(GL_CCW);  // in OpenGL's eyes, which see the picture upside down: clockwise
     gl.Enable(GL_DEPTH_TEST);
     gl.Disable(GL_DITHER);
+    gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     return Mesa(context);
 }
 
@@ -245,14 +280,91 @@ MesaTexture Mesa::makeTexture(const sampler2D& sampler)
     return {name};
 }
 
+MesaTexture Mesa::makeCubeMap(const CubeMap& cubeMap)
+{
+    GLuint name = 0;
+    gl.CreateTextures(GL_TEXTURE_CUBE_MAP, 1, &name);
+    gl.TextureStorage2D(name, cubeMap.levelCount(), GL_RGBA8, cubeMap.side(), cubeMap.side());
+    gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    for (int k = 0; k < cubeMap.levelCount(); ++k) {
+        const int side = cubeMap.level(k).width();
+        for (int face = 0; face < kCubeFaces; ++face) {
+            std::vector<glm::u8vec4> texels;  // of a cube map's faces OpenGL has the upper row first
+            for (int y = side - 1; y >= 0; --y) {
+                for (int x = 0; x < side; ++x) {
+                    texels.emplace_back(cubeMap.texel(k, face, x, y) * 255.0f + 0.5f);
+                }
+            }
+            gl.TextureSubImage3D(name, k, 0, 0, face, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+        }
+    }
+    gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return {name};
+}
+
+Expected<MesaTarget> Mesa::makeTarget(int width, int height, int colors)
+{
+    GLuint framebuffer = 0;
+    gl.CreateFramebuffers(1, &framebuffer);
+    const auto attach = [&](GLenum attachment, GLenum format) {
+        GLuint name = 0;
+        gl.CreateTextures(GL_TEXTURE_2D, 1, &name);
+        gl.TextureStorage2D(name, 1, format, width, height);
+        gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        gl.TextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        gl.TextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        gl.NamedFramebufferTexture(framebuffer, attachment, name, 0);
+        return MesaTexture{name};
+    };
+    MesaTarget target = {framebuffer, width, height, {}, attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F)};
+    std::vector<GLenum> written;
+    for (int i = 0; i < colors; ++i) {
+        written.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
+        target.colors.push_back(attach(written.back(), GL_RGBA8));
+    }
+    gl.NamedFramebufferDrawBuffers(framebuffer, colors, written.data());
+    const Expected<unsigned> checked = checkedTarget(framebuffer, width, height);
+    if (!checked) return tl::unexpected(checked.error());
+    return target;
+}
+
+void Mesa::compareDepths(const MesaTexture& depth)
+{
+    const float lit[] = {1.0f, 1.0f, 1.0f, 1.0f};
+    gl.TextureParameteri(depth.name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    gl.TextureParameteri(depth.name, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    gl.TextureParameteri(depth.name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TextureParameteri(depth.name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.TextureParameteri(depth.name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    gl.TextureParameteri(depth.name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    gl.TextureParameterfv(depth.name, GL_TEXTURE_BORDER_COLOR, lit);
+}
+
+Expected<void> Mesa::setSamples(int samples)
+{
+    context->multisampled = 0;
+    if (samples == 1) return {};
+    return makePicture(context->width, context->height, samples).map([&](unsigned made) {
+        context->multisampled = made;
+    });
+}
+
 // --- drawing ---
+
+void Mesa::drawInto(const MesaTarget& target)
+{
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    gl.Viewport(0, 0, target.width, target.height);
+    clearBound(glm::vec4(0.0f));
+}
 
 void Mesa::clear(const glm::vec4& color)
 {
-    gl.DepthMask(GL_TRUE);
-    gl.ClearColor(color.r, color.g, color.b, color.a);
-    gl.ClearDepthf(1.0f);
-    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, context->multisampled != 0 ? context->multisampled : context->picture);
+    gl.Viewport(0, 0, context->width, context->height);
+    clearBound(color);
 }
 
 void Mesa::draw(const MesaProgram& program, const MesaMesh& mesh, const RenderState& state,
@@ -275,6 +387,10 @@ void Mesa::draw(const MesaProgram& program, const MesaMesh& mesh, const RenderSt
 
 void Mesa::finish()
 {
+    if (context->multisampled != 0) {
+        gl.BlitNamedFramebuffer(context->multisampled, context->picture, 0, 0, context->width, context->height, 0, 0,
+                                context->width, context->height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
     gl.Finish();
 }
 
@@ -282,6 +398,7 @@ Expected<std::vector<std::uint32_t>> Mesa::pixels()
 {
     std::vector<std::uint32_t> pixels(static_cast<std::size_t>(context->width) *
                                       static_cast<std::size_t>(context->height));
+    gl.BindFramebuffer(GL_FRAMEBUFFER, context->picture);
     gl.ReadPixels(0, 0, context->width, context->height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
     const GLenum error = gl.GetError();
     if (error == GL_NO_ERROR) return pixels;

@@ -1,5 +1,6 @@
 // Mesa's llvmpipe, the strongest other rasterizer on a CPU, as far as the comparison needs it: OpenGL 4.5 core without
-// a window (EGL, surfaceless), drawing into one target of 8-bit colour and 32-bit float depth.
+// a window (EGL, surfaceless), drawing into one target of 8-bit colour and 32-bit float depth, the picture, and into
+// textures before it.
 //
 // Programs draw the picture with row 0 on top, as the engine's framebuffer has it: OpenGL's row 0 is the lowest, so it
 // is the geometry that is flipped, by flipped() in every vertex program. Then Mesa's top-left rule, which speaks of
@@ -16,6 +17,7 @@
 #include "hlsl/types.h"
 #include "mesh/mesh.h"
 #include "pipeline/render_state.h"
+#include "texture/cube_map.h"
 #include "texture/sampler.h"
 
 namespace relief::benchmarks {
@@ -48,8 +50,18 @@ struct MesaTexture
     unsigned name;
 };
 
-// How tex2D in fragment programs finds the level of detail. Mesa's own takes a straight line between powers of two for
-// the logarithm, and is off by up to 0.043 levels; `exact` spells the formula out.
+// A target for a pass before the picture, 8-bit colours and a 32-bit float depth, which are textures: by the nearest
+// texel, and clamped. As in the picture, row 0 is on top: v goes down.
+struct MesaTarget
+{
+    unsigned framebuffer;
+    int width, height;
+    std::vector<MesaTexture> colors;
+    MesaTexture depth;
+};
+
+// How tex2D and texCUBE in fragment programs find the level of detail. Mesa's own takes a straight line between powers
+// of two for the logarithm, and is off by up to 0.043 levels; `exact` spells the formula out.
 enum class LevelOfDetail
 {
     mesas,
@@ -66,15 +78,26 @@ public:
     std::string description() const;
 
     // From GLSL without #version. Vertex programs find `position` at location 0, `normal` at 1, `uv` at 2 and `tangent`
-    // at 3, and give flipped(clip position) to gl_Position. Fragment programs have tex2D(sampler, uv), and give
-    // `result`.
+    // at 3, and give flipped(clip position) to gl_Position. Fragment programs have tex2D(sampler, uv) and
+    // texCUBE(sampler, direction), and give `result`.
     Expected<MesaProgram> makeProgram(const std::string& vertexProgram, const std::string& fragmentProgram);
     MesaMesh makeMesh(const Mesh& mesh);
     // The texture's own levels, as the sampler reads them but for its limits and bias. Mesa's anisotropic filter is
     // another one, and off.
     MesaTexture makeTexture(const sampler2D& sampler);
+    // RGBA8, trilinear, seamless.
+    MesaTexture makeCubeMap(const CubeMap& cubeMap);
+    // With 0 to 4 colours.
+    Expected<MesaTarget> makeTarget(int width, int height, int colors);
+    // For a sampler2DShadow: 2x2 comparisons, `reference <= depth`, and 1 outside.
+    void compareDepths(const MesaTexture& depth);
 
-    // Depth to 1.
+    // Of a pixel of the picture; finish() writes their mean.
+    Expected<void> setSamples(int samples);
+
+    // Makes it the target of the next draws, cleared to 0 and depth 1.
+    void drawInto(const MesaTarget& target);
+    // Makes the picture the target, and its depth 1.
     void clear(const glm::vec4& color);
     // Triangles. The textures are those of bindings 0, 1, ...
     void draw(const MesaProgram& program, const MesaMesh& mesh, const RenderState& state,

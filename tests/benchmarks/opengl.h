@@ -14,15 +14,16 @@ namespace relief::benchmarks {
 #define RELIEF_EGL_FUNCTIONS(X) \
     X(BindAPI) X(CreateContext) X(DestroyContext) X(GetPlatformDisplay) X(Initialize) X(MakeCurrent) X(Terminate)
 #define RELIEF_GL_FUNCTIONS(X) \
-    X(AttachShader) X(BindFramebuffer) X(BindTextureUnit) X(BindVertexArray) X(BlendFunc) \
+    X(AttachShader) X(BindFramebuffer) X(BindTextureUnit) X(BindVertexArray) X(BlendFunc) X(BlitNamedFramebuffer) \
     X(CheckNamedFramebufferStatus) X(Clear) X(ClearColor) X(ClearDepthf) X(ClipControl) X(CompileShader) \
     X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateRenderbuffers) X(CreateShader) X(CreateTextures) \
     X(CreateVertexArrays) X(CullFace) X(DepthFunc) X(DepthMask) X(Disable) X(DrawElements) X(Enable) \
     X(EnableVertexArrayAttrib) X(Finish) X(FrontFace) X(GetError) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv) \
-    X(GetString) X(GetUniformLocation) X(LinkProgram) X(NamedBufferStorage) X(NamedFramebufferRenderbuffer) \
+    X(GetString) X(GetUniformLocation) X(LinkProgram) X(NamedBufferStorage) X(NamedFramebufferDrawBuffers) \
+    X(NamedFramebufferRenderbuffer) X(NamedFramebufferTexture) X(NamedRenderbufferStorageMultisample) \
     X(NamedRenderbufferStorage) X(PixelStorei) X(ProgramUniform1f) X(ProgramUniform3fv) X(ProgramUniform4fv) \
     X(ProgramUniformMatrix3fv) X(ProgramUniformMatrix4fv) X(ReadPixels) X(ShaderSource) X(TextureParameterfv) \
-    X(TextureParameteri) X(TextureStorage2D) X(TextureSubImage2D) X(UseProgram) X(VertexArrayAttribBinding) \
+    X(TextureParameteri) X(TextureStorage2D) X(TextureSubImage2D) X(TextureSubImage3D) X(UseProgram) X(VertexArrayAttribBinding) \
     X(VertexArrayAttribFormat) X(VertexArrayElementBuffer) X(VertexArrayVertexBuffer) X(Viewport)
 // clang-format on
 

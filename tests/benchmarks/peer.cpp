@@ -14,6 +14,7 @@
 #include "child_process.h"
 #include "command_line.h"
 #include "cost.h"
+#include "feature_scenes.h"
 #include "first_frame.h"
 #include "pipeline/workers.h"
 #include "twins.h"
@@ -71,7 +72,7 @@ struct Pair
     Frame frame;
     std::unique_ptr<SceneData> data;
     Mesa& mesa;
-    MesaDrawing drawing;
+    MesaDrawing drawing = [] {};
 
     Pair(Framebuffer created, int threads, const BenchScene& scene, Mesa& peer)
         : target(std::move(created)), frame(target, {.threads = threads}), mesa(peer)
@@ -80,26 +81,38 @@ struct Pair
         frame.clear(kBackground);
     }
 
-    void runRelief() { frame.run(); }
+    void runRelief()
+    {
+        data->runPasses();
+        frame.run();
+    }
     void runMesa()
     {
+        if (drawing.passes) drawing.passes();
         mesa.clear(kBackground);
-        drawing();
+        drawing.picture();
         mesa.finish();
     }
 };
 
 const BenchScene& sceneOf(const Twin& twin)
 {
-    const auto& scenes = benchmarks::benchScenes();
-    return *std::find_if(scenes.begin(), scenes.end(), [&](const BenchScene& s) { return s.name == twin.scene; });
+    for (const auto* scenes : {&benchmarks::benchScenes(), &benchmarks::featureScenes()}) {
+        for (const BenchScene& scene : *scenes) {
+            if (scene.name == twin.scene) return scene;
+        }
+    }
+    std::abort();  // a twin of no scene
 }
 
 Expected<std::unique_ptr<Pair>> prepare(const Row& row, int threads, Mesa& mesa)
 {
-    Expected<Framebuffer> target = Framebuffer::create(row.size.width, row.size.height, Format::rgba8);
+    const BenchScene& scene = sceneOf(row.twin);
+    Expected<Framebuffer> target = benchmarks::targetFor(scene, row.size.width, row.size.height);
     if (!target) return tl::unexpected(target.error());
-    auto pair = std::make_unique<Pair>(std::move(*target), threads, sceneOf(row.twin), mesa);
+    const Expected<void> multisampled = mesa.setSamples(scene.samples);
+    if (!multisampled) return tl::unexpected(multisampled.error());
+    auto pair = std::make_unique<Pair>(std::move(*target), threads, scene, mesa);
     if (!pair->data->problem.empty()) return fail(pair->data->problem);
     Expected<MesaDrawing> drawing = row.twin.prepare(mesa, *pair->data);
     if (!drawing) return tl::unexpected(drawing.error());
@@ -168,10 +181,11 @@ Expected<std::string> comparePictures(const Setting& setting)
         if (!pair) return tl::unexpected(pair.error());
         (*pair)->runRelief();
         (*pair)->runMesa();
+        if (!(*pair)->data->problem.empty()) return fail((*pair)->data->problem);
         const auto theirs = mesa->pixels();
         if (!theirs) return tl::unexpected(theirs.error());
-        lines += text(benchmarks::agreement(*(*pair)->data, row.size.width, row.size.height, (*pair)->target.color8(),
-                                            *theirs)) +
+        lines += text(benchmarks::agreement(*(*pair)->data, row.size.width, row.size.height,
+                                            (*pair)->target.samples().count, (*pair)->target.color8(), *theirs)) +
                  "\n";
     }
     return lines;
@@ -182,12 +196,14 @@ Expected<std::string> comparePictures(const Setting& setting)
 // What a first frame takes of Relief: Mesa is not even loaded.
 Expected<void> drawRelief(const Row& row, int threads)
 {
-    Expected<Framebuffer> target = Framebuffer::create(row.size.width, row.size.height, Format::rgba8);
+    const BenchScene& scene = sceneOf(row.twin);
+    Expected<Framebuffer> target = benchmarks::targetFor(scene, row.size.width, row.size.height);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = threads});
-    const auto data = sceneOf(row.twin).record(frame, row.size.width, row.size.height);
+    const auto data = scene.record(frame, row.size.width, row.size.height);
     if (!data->problem.empty()) return fail(data->problem);
     frame.clear(kBackground);
+    data->runPasses();
     frame.run();
     return {};
 }
@@ -255,7 +271,9 @@ Expected<Times> timesOf(const Row& row, const Setting& setting, Mesa& mesa, std:
     }
     const auto pair = prepare(row, setting.threads, mesa);
     if (!pair) return tl::unexpected(pair.error());
-    return measure(**pair, setting.pairs);
+    const Times times = measure(**pair, setting.pairs);
+    if (!(*pair)->data->problem.empty()) return fail((*pair)->data->problem);
+    return times;
 }
 
 Expected<void> benchPeer(const PeerOptions& options)

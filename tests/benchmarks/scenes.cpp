@@ -147,20 +147,6 @@ std::unique_ptr<SceneData> layers(Frame& frame, int count)
     return data;
 }
 
-// 512 x 512 texels of noise and a grid, RGBA8.
-Texture testTexture()
-{
-    std::vector<std::uint8_t> pixels;
-    std::uint32_t noise = 1;
-    for (int i = 0; i < 512 * 512; ++i) {
-        noise = noise * 1664525u + 1013904223u;
-        const bool line = i % 32 == 0 || i / 512 % 32 == 0;
-        for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<std::uint8_t>(line ? 255 : 64 + (noise >> 25)));
-        pixels.push_back(255);
-    }
-    return *Texture::fromRgba8(512, 512, pixels, ColorSpace::linear);
-}
-
 glm::mat4 clipFromWorld(const samples::Camera& camera, int width, int height)
 {
     return samples::clipFromView(camera, static_cast<float>(width) / static_cast<float>(height)) *
@@ -214,6 +200,19 @@ std::unique_ptr<SceneData> smallTriangles(Frame& frame, int width, int height)
 }
 
 }  // namespace
+
+Texture testTexture()
+{
+    std::vector<std::uint8_t> pixels;
+    std::uint32_t noise = 1;
+    for (int i = 0; i < 512 * 512; ++i) {
+        noise = noise * 1664525u + 1013904223u;
+        const bool line = i % 32 == 0 || i / 512 % 32 == 0;
+        for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<std::uint8_t>(line ? 255 : 64 + (noise >> 25)));
+        pixels.push_back(255);
+    }
+    return *Texture::fromRgba8(512, 512, pixels, ColorSpace::linear);
+}
 
 std::unique_ptr<SceneData> recordPlane(Frame& frame, int width, int height, Texture texture, PlaneFetch fetch)
 {
@@ -270,7 +269,35 @@ std::unique_ptr<SceneData> recordStage(Frame& frame, int width, int height, cons
 std::vector<samples::Object> SceneData::objects() const
 {
     if (stage) return stage->inputs->objects;
-    return {{&mesh, worldFromObject}};
+    if (pieces.empty()) return {{&mesh, worldFromObject}};
+    std::vector<samples::Object> all;
+    for (const Piece& piece : pieces) all.push_back({&piece.mesh, piece.worldFromObject});
+    return all;
+}
+
+// The last frame's copies go first, so that there are never two of each.
+Expected<void> EarlierPass::run()
+{
+    frame.run();
+    for (std::optional<Texture>& texture : textures) texture.reset();
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+        Expected<Texture> made = textureOf(target, static_cast<int>(i));
+        if (!made) return tl::unexpected(made.error());
+        textures[i].emplace(std::move(*made));
+    }
+    return {};
+}
+
+void SceneData::runPasses()
+{
+    if (pass == nullptr) return;
+    const Expected<void> run = pass->run();
+    if (!run) problem = run.error().message;
+}
+
+Expected<Framebuffer> targetFor(const BenchScene& scene, int width, int height)
+{
+    return Framebuffer::create(width, height, Format::rgba8, Store::discard, scene.samples);
 }
 
 const std::vector<BenchScene>& benchScenes()

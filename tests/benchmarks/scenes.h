@@ -11,6 +11,7 @@
 
 #include "common/render.h"
 #include "pipeline/frame.h"
+#include "texture/cube_map.h"
 #include "texture/texture.h"
 
 namespace relief::benchmarks {
@@ -22,6 +23,28 @@ struct Layer
     glm::vec4 color;
 };
 
+// A mesh that a scene made, where it stands, and how often its uv go around.
+struct Piece
+{
+    Mesh mesh;
+    glm::mat4 worldFromObject{1.0f};
+    float tiling = 1.0f;
+};
+
+// What is drawn before the picture, into a target whose attachments are textures of the picture's programs.
+struct EarlierPass
+{
+    Framebuffer target;
+    Frame frame;
+    std::vector<std::optional<Texture>> textures;  // of all attachments; they stay where they are
+
+    EarlierPass(Framebuffer created, int threads)
+        : target(std::move(created)), frame(target, {.threads = threads}), textures(target.attachments().size())
+    {
+    }
+    Expected<void> run();
+};
+
 // What a scene's draws are made of, kept alive while frames run. Another rasterizer draws the same from it (twins.h).
 struct SceneData
 {
@@ -30,18 +53,28 @@ struct SceneData
     int maxAnisotropy = 1;
     float tiling = 1.0f;
     glm::mat4 clipFromWorld{1.0f}, worldFromObject{1.0f};
-    glm::vec3 lightDir{0.0f}, color{0.0f};
+    glm::vec3 lightDir{0.0f}, color{0.0f}, cameraPos{0.0f};
     std::vector<Layer> layers;
+
+    // Of a scene of several objects, or passes (feature_scenes.h).
+    std::vector<Piece> pieces;
+    std::optional<Texture> albedo;
+    std::optional<CubeMap> cubeMap;
+    glm::mat4 lightFromWorld{1.0f};
+    std::unique_ptr<EarlierPass> pass;
 
     // Of a stage, in place of all this: its inputs, and what its draw function gets.
     std::optional<samples::PreparedStage> stage;
     std::optional<samples::Scene> stageScene;
 
-    // Why there is nothing to draw, where files are missing; empty elsewhere.
+    // Why there is nothing to draw, where files or memory are missing; empty elsewhere.
     std::string problem;
 
     // What is drawn, and where it stands in the world; once, however many passes there are.
     std::vector<samples::Object> objects() const;
+
+    // To be called before every frame.
+    void runPasses();
 };
 
 struct BenchScene
@@ -49,9 +82,16 @@ struct BenchScene
     std::string name;
     std::string what;
     std::function<std::unique_ptr<SceneData>(Frame&, int width, int height)> record;
+    int samples = 1;  // of a pixel of its target
 };
 
 const std::vector<BenchScene>& benchScenes();
+
+// A target for such a scene: 8-bit colours, and a depth that is not kept.
+Expected<Framebuffer> targetFor(const BenchScene& scene, int width, int height);
+
+// 512 x 512 texels of noise and a grid, RGBA8.
+Texture testTexture();
 
 // What some of them are made of, for other sizes than theirs.
 

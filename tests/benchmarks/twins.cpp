@@ -1,5 +1,6 @@
 #include "twins.h"
 
+#include "feature_twins.h"
 #include "shading/object_transform.h"
 #include "stage_twins.h"
 
@@ -150,6 +151,10 @@ const std::vector<Twin>& twins()
         {"stage_1.25", litScene},
         {"stage_2.06", twoLights},
         {"stage_4.07", reorientedNormals},
+        {"multisampled", sunlit},
+        {"shadowed", shadowed},
+        {"reflecting", reflecting},
+        {"deferred", deferred},
     };
     return all;
 }
