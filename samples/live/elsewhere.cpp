@@ -2,6 +2,7 @@
 #include "live/load.h"
 #include "live/new_stage.h"
 #include "live/session.h"
+#include "trace/traced_stage.h"
 
 namespace relief::samples::live {
 
@@ -31,7 +32,19 @@ Expected<const Toolchain*> findToolchain(const std::string&)
 {
     return needsLinux();
 }
+Expected<const Toolchain*> findTracedToolchain()
+{
+    return needsLinux();
+}
 Expected<const Stage*> loadStage(const std::string&)
+{
+    return needsLinux();
+}
+Expected<StageCompile> StageCompile::start(const StageSource&, const std::string&, bool)
+{
+    return needsLinux();
+}
+Expected<const Stage*> StageCompile::finish()
 {
     return needsLinux();
 }
@@ -75,6 +88,10 @@ std::string sampleFolder()
 {
     return "";
 }
+std::string programPath()
+{
+    return "";
+}
 std::string formatted(const std::vector<Diagnostic>&)
 {
     return "";
@@ -85,3 +102,12 @@ Expected<std::string> readText(const std::string&)
 }
 
 }  // namespace relief::samples::live
+
+namespace relief::samples::trace {
+
+Expected<TracedStage> loadTraced(const std::string&)
+{
+    return live::needsLinux();
+}
+
+}  // namespace relief::samples::trace
