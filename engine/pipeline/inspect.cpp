@@ -218,7 +218,13 @@ void findRange(Inspection& result)
     if (result.view.name == "uv") return between(0.0f, 1.0f);
     if (result.view.name == "normal") return between(-1.0f, 1.0f);
     if (result.view.sight == Sight::lanes) return between(1.0f, static_cast<float>(kLanes));
-    const bool fromZero = result.view.sight != Sight::depth && result.view.sight != Sight::interpolator;
+    fitRange(result, result.view.sight != Sight::depth && result.view.sight != Sight::interpolator);
+}
+
+}  // namespace
+
+void fitRange(Inspection& result, bool fromZero)
+{
     bool any = fromZero;
     for (std::size_t i = 0; i < result.values.size(); ++i) {
         for (int c = 0; c < result.components && result.drawn[i] != 0; ++c) {
@@ -230,8 +236,6 @@ void findRange(Inspection& result)
         }
     }
 }
-
-}  // namespace
 
 Expected<Inspection> inspect(Frame& frame, const std::string& name)
 {

@@ -30,6 +30,9 @@ struct Inspection
     Statistics statistics;  // of the frame, as run() gives them
 };
 
+// Sets the scale's ends to the smallest and the largest finite number of the pixels that have a value.
+void fitRange(Inspection& result, bool fromZero);
+
 // Runs the frame and looks. Where several draws cover a pixel it has the value of the last one that was not hidden or
 // thrown away; overdraw, samples and time are sums over all of them. All but time are the same for every number of
 // threads; lanes and blocks are the processor's. Draws onto targets without colour are not seen. An error for a view

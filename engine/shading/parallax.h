@@ -35,6 +35,32 @@ inline Float usableSteps(Float steps)
     return clamp(steps, 1.0f, kMaxParallaxSteps);
 }
 
+// A march from height 1 down along a ray, layer by layer, until the surface is above it.
+struct ParallaxMarch
+{
+    Float step;    // down
+    float2 delta;  // aside, for each step
+    float2 offset = 0.0f;
+    Float ray = 1.0f, surface, surfaceBefore;  // heights at the offset, and the surface's a step before
+
+    template <class HeightAt>
+    ParallaxMarch(const float3& viewDir, Float strength, Float steps, const HeightAt& heightAt)
+        : step(1.0f / usableSteps(steps)),
+          delta(parallaxTangent(viewDir.xy(), viewDir.z) * (step * strength)),
+          surface(heightAt(offset)),
+          surfaceBefore(surface)
+    {
+        Mask above = surface < ray;
+        whileAny(above, [&] {
+            offset = select(above, offset - delta, offset);
+            ray = select(above, ray - step, ray);
+            surfaceBefore = select(above, surface, surfaceBefore);
+            surface = select(above, heightAt(offset), surface);
+            above &= (surface < ray) & (ray > 0.0f);
+        });
+    }
+};
+
 }  // namespace detail
 
 // The height at the flat surface, taken for that of the point that the ray meets (Kaneko et al. 2001). It is measured
@@ -52,22 +78,12 @@ inline float2 limitedParallaxOffset(const float3& viewDir, Float height, Float b
     return detail::parallaxTangent(unit.xy(), select(viewDir.z > 0.0f, unit.z + bias, Float(0.0f))) * height;
 }
 
-// From height 1 down along the ray, layer by layer, until the surface is above it (McGuire and McGuire 2005). steps is
-// taken into 1..kMaxParallaxSteps, as in the two that follow.
+// Down along the ray, layer by layer, until the surface is above it (McGuire and McGuire 2005). steps is taken into
+// 1..kMaxParallaxSteps, as in the two that follow.
 template <class HeightAt>
 float2 steepParallaxOffset(const float3& viewDir, Float strength, Float steps, const HeightAt& heightAt)
 {
-    const Float step = 1.0f / detail::usableSteps(steps);
-    const float2 delta = detail::parallaxTangent(viewDir.xy(), viewDir.z) * (step * strength);
-    float2 offset(0.0f);
-    Float ray = 1.0f;
-    Mask above = heightAt(offset) < ray;
-    whileAny(above, [&] {
-        offset = select(above, offset - delta, offset);
-        ray = select(above, ray - step, ray);
-        above &= (heightAt(offset) < ray) & (ray > 0.0f);
-    });
-    return offset;
+    return detail::ParallaxMarch(viewDir, strength, steps, heightAt).offset;
 }
 
 // The same, and then to where the ray crosses the surface, if both are straight between the last two layers (Tatarchuk
@@ -75,20 +91,9 @@ float2 steepParallaxOffset(const float3& viewDir, Float strength, Float steps, c
 template <class HeightAt>
 float2 occlusionParallaxOffset(const float3& viewDir, Float strength, Float steps, const HeightAt& heightAt)
 {
-    const Float step = 1.0f / detail::usableSteps(steps);
-    const float2 delta = detail::parallaxTangent(viewDir.xy(), viewDir.z) * (step * strength);
-    float2 offset(0.0f);
-    Float ray = 1.0f, surface = heightAt(offset), surfaceBefore = surface;
-    Mask above = surface < ray;
-    whileAny(above, [&] {
-        offset = select(above, offset - delta, offset);
-        ray = select(above, ray - step, ray);
-        surfaceBefore = select(above, surface, surfaceBefore);
-        surface = select(above, heightAt(offset), surface);
-        above &= (surface < ray) & (ray > 0.0f);
-    });
-    const Float over = ray + step - surfaceBefore, under = surface - ray;
-    return offset + delta * select(ray < 1.0f, saturate(under / (over + under)), Float(0.0f));
+    const detail::ParallaxMarch m(viewDir, strength, steps, heightAt);
+    const Float over = m.ray + m.step - m.surfaceBefore, under = m.surface - m.ray;
+    return m.offset + m.delta * select(m.ray < 1.0f, saturate(under / (over + under)), Float(0.0f));
 }
 
 // The march, and then a search by halves: half a step back or forth, a quarter, an eighth (Policarpo et al. 2005).
@@ -96,25 +101,15 @@ template <class HeightAt>
 float2 reliefParallaxOffset(const float3& viewDir, Float strength, Float steps, int bisections,
                             const HeightAt& heightAt)
 {
-    Float step = 1.0f / detail::usableSteps(steps);
-    float2 delta = detail::parallaxTangent(viewDir.xy(), viewDir.z) * (step * strength);
-    float2 offset(0.0f);
-    Float ray = 1.0f;
-    Mask above = heightAt(offset) < ray;
-    whileAny(above, [&] {
-        offset = select(above, offset - delta, offset);
-        ray = select(above, ray - step, ray);
-        above &= (heightAt(offset) < ray) & (ray > 0.0f);
-    });
+    detail::ParallaxMarch m(viewDir, strength, steps, heightAt);
     for (int k = 0; k < bisections; ++k) {
-        step *= 0.5f;
-        delta *= 0.5f;
-        above = heightAt(offset) < ray;
-        const Float sign = select(above, Float(-1.0f), Float(1.0f));
-        offset += delta * sign;
-        ray += step * sign;
+        m.step *= 0.5f;
+        m.delta *= 0.5f;
+        const Float sign = select(heightAt(m.offset) < m.ray, Float(-1.0f), Float(1.0f));
+        m.offset += m.delta * sign;
+        m.ray += m.step * sign;
     }
-    return offset;
+    return m.offset;
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

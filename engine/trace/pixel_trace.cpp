@@ -193,8 +193,6 @@ public:
         weights.set(batch, 0);
         followed.push_back({draw.geometry.drawIndex, triangle, {}, false});
         current = &followed.back().fragment;
-        current->hiddenByBlock = itsTile.hasDepth() && isHidden(draw.state.depthTest, weights.nearest, weights.farthest,
-                                                                itsTile.bounds(itsTile.blockAt(at.x, at.y)));
         setWeights();
     }
 

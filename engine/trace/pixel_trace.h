@@ -2,7 +2,7 @@
 // pixel's words came about. The frame runs as it always does, its triangles one by one in the pixel's tile, and every
 // step is worked out a second time and compared with what the frame did: a trace that disagrees is an error.
 //
-// Nothing here depends on the lanes, but for `hiddenByBlock`.
+// Nothing here depends on the lanes.
 #pragma once
 
 #include <array>
@@ -63,8 +63,7 @@ struct FragmentTrace
     std::array<float, 3> linear{}, perspective{};  // weights of the corners
     float clipW = 0.0f;
     std::vector<SampleOutcome> samples;
-    bool hiddenByBlock = false;  // its block's bounds told so, with these lanes
-    bool ran = false;            // the fragment program
+    bool ran = false;  // the fragment program
     std::vector<InterpolatorTrace> interpolators;
     QuadValue color;  // target 0's, of the quad
     bool discarded = false;

@@ -39,44 +39,22 @@ void tellLanes(const Site& site, const std::string& field, const T& value)
     listener->value(site, field, {kKind<T>, 1, 1, &bits});
 }
 
+// What is derived from these, too: a semantic is a value.
 template <class T, int n>
-void tellVector(const Site& site, const std::string& field, const LaneVector<T, n>& value)
+void tellColumns(const Site& site, const std::string& field, const LaneVector<T, n>& value)
 {
     Float bits[4];
     for (int c = 0; c < n; ++c) bits[c] = bitsOf(value[c]);
     listener->value(site, field, {kKind<T>, n, 1, bits});
 }
-
 template <int n>
-void tellMatrix(const Site& site, const std::string& field, const LaneMatrix<n>& value)
+void tellColumns(const Site& site, const std::string& field, const LaneMatrix<n>& value)
 {
     Float bits[16];
     for (int c = 0; c < n; ++c) {
         for (int r = 0; r < n; ++r) bits[c * n + r] = value[c][r];
     }
     listener->value(site, field, {ValueKind::number, n, n, bits});
-}
-
-// A semantic is a value, too: these take what is derived from it.
-template <int n>
-void tellAny(const Site& site, const std::string& field, const LaneVector<Float, n>& value)
-{
-    tellVector(site, field, value);
-}
-template <int n>
-void tellAny(const Site& site, const std::string& field, const LaneVector<Int, n>& value)
-{
-    tellVector(site, field, value);
-}
-template <int n>
-void tellAny(const Site& site, const std::string& field, const LaneVector<Mask, n>& value)
-{
-    tellVector(site, field, value);
-}
-template <int n>
-void tellAny(const Site& site, const std::string& field, const LaneMatrix<n>& value)
-{
-    tellMatrix(site, field, value);
 }
 
 template <class T>
@@ -106,9 +84,7 @@ void detail::tell(const Site& site, const std::string& field, const T& value)
 {
     if constexpr (std::is_same_v<T, bool>) {
         tellLanes(site, field, Mask(value));
-    } else if constexpr (std::is_integral_v<T>) {
-        tellLanes(site, field, Int(static_cast<std::int32_t>(value)));
-    } else if constexpr (std::is_enum_v<T>) {
+    } else if constexpr (std::is_integral_v<T> || std::is_enum_v<T>) {
         tellLanes(site, field, Int(static_cast<std::int32_t>(value)));
     } else if constexpr (std::is_floating_point_v<T>) {
         tellLanes(site, field, Float(static_cast<float>(value)));
@@ -118,8 +94,8 @@ void detail::tell(const Site& site, const std::string& field, const T& value)
         tellLanes(site, field, static_cast<const Int&>(value));
     } else if constexpr (std::derived_from<T, Mask>) {
         tellLanes(site, field, static_cast<const Mask&>(value));
-    } else if constexpr (requires { tellAny(site, field, value); }) {
-        tellAny(site, field, value);
+    } else if constexpr (requires { tellColumns(site, field, value); }) {
+        tellColumns(site, field, value);
     } else if constexpr (requires(const Fields& fields) { seeFields(fields, value); }) {
         seeFields(Fields(site, field), value);
     }

@@ -217,16 +217,7 @@ void showAs(Show show, Inspection& result)
     };
     if (show == Show::color) return between(0.0f, 1.0f);
     if (show == Show::unit || show == Show::sign) return between(-1.0f, 1.0f);
-    bool any = false;
-    for (std::size_t i = 0; i < result.values.size(); ++i) {
-        for (int c = 0; c < result.components && result.drawn[i] != 0; ++c) {
-            const float value = result.values[i][c];
-            if (!std::isfinite(value)) continue;
-            result.lowest = any ? std::min(result.lowest, value) : value;
-            result.highest = any ? std::max(result.highest, value) : value;
-            any = true;
-        }
-    }
+    fitRange(result, false);
 }
 
 }  // namespace

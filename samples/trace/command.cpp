@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "file.h"
+#include "picture_command.h"
 #include "prepare.h"
 #include "trace/tell.h"
 #include "trace/variable.h"
@@ -57,45 +58,34 @@ struct Recorded
     }
 };
 
-// What is told of a stage's pixel, and the picture that it is in.
-struct Told
+// A stage that tells, its frame, and where its lines are.
+struct Telling
 {
-    PixelTrace trace;
-    Subject subject;
-    Recorded picture;
-};
-
-std::string commandOf(const RenderOptions& options, const std::string& pixel)
-{
-    std::string words = "relief trace " + options.stage + " --pixel " + pixel + " --size " + options.size;
-    if (options.samples != 1) words += " --samples " + std::to_string(options.samples);
-    if (!options.camera.empty()) words += " --camera " + options.camera;
-    for (const std::string& setting : options.settings) words += " --set " + setting;
-    return words;
-}
-
-// Of a stage that tells: its frame, and where its lines are.
-struct RecordedTelling
-{
+    TracedStage stage;
     Subject subject;
     Recorded recorded;
 
-    static Expected<RecordedTelling> record(const RenderOptions& options, const std::string& what)
+    // `words`: of the command line, after the stage.
+    static Expected<Telling> record(const RenderOptions& options, const std::string& words)
     {
         const Expected<Size> size = parseSize(options.size);
         if (!size) return tl::unexpected(size.error());
-        const Expected<TracedStage> stage = loadTraced(options.stage);
+        Expected<TracedStage> stage = loadTraced(options.stage);
         if (!stage) return tl::unexpected(stage.error());
+        const Expected<live::Look> look = lookOf(options);
+        if (!look) return tl::unexpected(look.error());
         Expected<Recorded> recorded = Recorded::record(*stage->traced, options, *size);
         if (!recorded) return tl::unexpected(recorded.error());
-        return RecordedTelling{Subject(*stage, "relief trace " + options.stage + what), std::move(*recorded)};
+        Subject subject(*stage, traceCommand("./relief", stage->source, words, *look));
+        return Telling{std::move(*stage), std::move(subject), std::move(*recorded)};
     }
 };
 
 Expected<void> tellVertex(const TraceOptions& options)
 {
     const std::string words = "--vertex " + std::to_string(options.vertex);
-    const Expected<RecordedTelling> telling = RecordedTelling::record(options.render, " " + words);
+    const Expected<Telling> telling =
+        Telling::record(options.render, options.draw == 0 ? words : words + " --draw " + std::to_string(options.draw));
     if (!telling) return tl::unexpected(telling.error());
     const Expected<relief::trace::VertexTrace> vertex =
         relief::trace::traceVertex(*telling->recorded.frame, options.draw, static_cast<std::uint32_t>(options.vertex));
@@ -106,7 +96,7 @@ Expected<void> tellVertex(const TraceOptions& options)
 
 Expected<void> tellFirstNan(const RenderOptions& options)
 {
-    const Expected<RecordedTelling> telling = RecordedTelling::record(options, " --first-nan");
+    const Expected<Telling> telling = Telling::record(options, "--first-nan");
     if (!telling) return tl::unexpected(telling.error());
     const std::optional<relief::trace::NotFinite> first = relief::trace::firstNotFinite(*telling->recorded.frame);
     if (!first) {
@@ -119,28 +109,34 @@ Expected<void> tellFirstNan(const RenderOptions& options)
     return {};
 }
 
+// What is told of a stage's pixel, and the picture that it is in: the plain program's.
+struct Told
+{
+    PixelTrace trace;
+    Subject subject;
+    Recorded picture;
+};
+
 Expected<Told> toldOf(const RenderOptions& options, const std::string& pixelText)
 {
-    const Expected<Size> size = parseSize(options.size);
-    if (!size) return tl::unexpected(size.error());
     const Expected<Pixel> pixel = parsePixel(pixelText);
     if (!pixel) return tl::unexpected(pixel.error());
-    const Expected<TracedStage> stage = loadTraced(options.stage);
-    if (!stage) return tl::unexpected(stage.error());
-    Expected<Recorded> plain = Recorded::record(*stage->plain, options, *size);
-    if (!plain) return tl::unexpected(plain.error());
-    Expected<Recorded> traced = Recorded::record(*stage->traced, options, *size);
-    if (!traced) return tl::unexpected(traced.error());
-    const Expected<PixelTrace> trace = tracePixel(*traced->frame, pixel->x, pixel->y);
+    const Expected<Telling> telling = Telling::record(options, "--pixel " + pixelText);
+    if (!telling) return tl::unexpected(telling.error());
+    const Expected<PixelTrace> trace = tracePixel(*telling->recorded.frame, pixel->x, pixel->y);
     if (!trace) return fail("--pixel " + pixelText + ": " + trace.error().message);
+    const int width = telling->recorded.target->width();
+    Expected<Recorded> plain =
+        Recorded::record(*telling->stage.plain, options, {width, telling->recorded.target->height()});
+    if (!plain) return tl::unexpected(plain.error());
     plain->frame->run();
-    const std::size_t at =
-        static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(size->width) + static_cast<std::size_t>(pixel->x);
+    const auto at =
+        static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(pixel->x);
     if (plain->target->color8()[at] != trace->storedWords[0]) {
         return fail("--pixel " + pixelText +
                     ": the trace does not end at the picture's pixel; this is a defect of Relief, please report it");
     }
-    return Told{*trace, Subject(*stage, commandOf(options, pixelText)), std::move(*plain)};
+    return Told{*trace, telling->subject, std::move(*plain)};
 }
 
 }  // namespace

@@ -80,10 +80,10 @@ std::string tableOf(const Quad& quad)
     return html + "\n";
 }
 
-void write(const Node& node, std::string& html)
+// `lastCode`: the source's line that stands above already.
+void write(const Node& node, std::string_view lastCode, std::string& html)
 {
-    const std::string code = node.code.empty() ? "" : "<code>" + escaped(node.code) + "</code>";
-    html += code;
+    if (!node.code.empty() && node.code != lastCode) html += "<code>" + escaped(node.code) + "</code>";
     if (node.children.empty() && !node.quad) {
         html += "<p>" + rowOf(node) + "</p>\n";
         return;
@@ -92,12 +92,10 @@ void write(const Node& node, std::string& html)
     html += std::string("<details") + (node.isFolded || isValue ? "" : " open") + "><summary>" + rowOf(node) +
             "</summary>\n";
     if (node.quad) html += tableOf(*node.quad);
-    std::string lastCode;
+    std::string_view code;
     for (const Node& child : node.children) {
-        Node shown = child;
-        if (shown.code == lastCode) shown.code.clear();
-        if (!child.code.empty()) lastCode = child.code;
-        write(shown, html);
+        write(child, code, html);
+        if (!child.code.empty()) code = child.code;
     }
     html += "</details>\n";
 }
@@ -175,7 +173,7 @@ Expected<std::string> toHtml(const PixelTrace& trace, const Subject& subject, st
         "\n<p><i style=\"background:" + hexadecimal(trace.stored[0], trace.stored[1], trace.stored[2]) +
         "\"></i>stored: " + escaped(storedText(trace.format, trace.storedWords)) + "</p>\n<p>Made by <kbd>" +
         escaped(subject.command) + "</kbd></p>\n</aside>\n<main>\n";
-    write(tell(trace, subject), html);
+    write(tell(trace, subject), "", html);
     return html + "</main>\n</html>\n";
 }
 

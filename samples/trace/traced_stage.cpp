@@ -12,14 +12,14 @@ Expected<TracedStage> loadTraced(const std::string& name)
     if (!source) return tl::unexpected(source.error());
     const Expected<std::string> text = live::readText(source->path);
     if (!text) return tl::unexpected(text.error());
-    TracedStage result{nullptr, nullptr, source->stem + ".cpp", source->path, *text};
+    TracedStage result{nullptr, nullptr, source->stem + ".cpp", *text, *source};
 
     Expected<live::StageCompile> traced = live::StageCompile::start(*source, instrumented(*text, result.file), true);
     if (!traced) return tl::unexpected(traced.error());
-    const Expected<const Stage*> known = live::namesFile(name) ? fail("") : findStage(name);
-    if (known) {
-        result.plain = *known;
-    } else {
+    if (!live::namesFile(name)) {
+        if (const Expected<const Stage*> known = findStage(name)) result.plain = *known;
+    }
+    if (result.plain == nullptr) {
         Expected<live::StageCompile> compile = live::StageCompile::start(*source, *text);
         if (!compile) return tl::unexpected(compile.error());
         const Expected<const Stage*> plain = compile->finish();

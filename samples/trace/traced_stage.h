@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/stage.h"
+#include "live/toolchain.h"
 
 namespace relief::samples::trace {
 
@@ -10,7 +11,8 @@ struct TracedStage
     const Stage* plain;   // of this program, or compiled from the source as it is
     const Stage* traced;  // the same, instrumented
     std::string file;     // what its events call the source
-    std::string path, text;
+    std::string text;     // of the source
+    live::StageSource source;
 };
 
 // By number, name or path. An error where it does not compile. Takes a second or two.

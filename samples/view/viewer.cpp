@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "prepare.h"
-#include "view/command.h"
+#include "picture_command.h"
 #include "view/orbit.h"
 
 namespace relief::samples {

@@ -4,7 +4,7 @@
 #include "hands.h"
 #include "live/new_stage.h"
 #include "prepare.h"
-#include "view/command.h"
+#include "picture_command.h"
 #include "view/orbit.h"
 
 using namespace relief;

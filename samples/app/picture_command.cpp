@@ -1,4 +1,4 @@
-#include "view/command.h"
+#include "picture_command.h"
 
 #include <algorithm>
 #include <cctype>
@@ -66,13 +66,11 @@ std::string renderCommand(const live::StageSource& source, const live::Look& loo
     return command;
 }
 
-std::string traceCommand(const std::string& program, const live::StageSource& source, const live::Look& look, int x,
-                         int y, const std::string& page)
+std::string traceCommand(const std::string& program, const live::StageSource& source, const std::string& words,
+                         const live::Look& look)
 {
-    std::string command = word(program) + " trace " + nameOf(source);
-    add(command, "--pixel", std::to_string(x) + "," + std::to_string(y));
+    std::string command = word(program) + " trace " + nameOf(source) + " " + words;
     addPicture(command, look);
-    add(command, "--html", page);
     return command;
 }
 
