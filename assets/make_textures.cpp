@@ -15,7 +15,7 @@
 #include "bricks.h"
 #include "inlay.h"
 #include "noise.h"
-#include "texture/image.h"
+#include "relief/texture/image.h"
 
 namespace {
 

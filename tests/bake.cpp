@@ -1,5 +1,5 @@
 // Normal maps baked from geometry: vectors that are known by algebra, and what happens where nothing is to be baked.
-#include "mesh/bake.h"
+#include "relief/mesh/bake.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "mesh/primitives.h"
-#include "mesh/tangents.h"
+#include "relief/mesh/primitives.h"
+#include "relief/mesh/tangents.h"
 
 using namespace relief;
 

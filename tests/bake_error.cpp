@@ -1,5 +1,5 @@
 // What a shader makes of baked maps: nothing lost where it decodes as was baked, and how much is where it does not.
-#include "mesh/bake_error.h"
+#include "relief/mesh/bake_error.h"
 
 #include <cmath>
 #include <cstddef>
@@ -10,10 +10,10 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "lanes/math.h"
-#include "mesh/displace.h"
-#include "mesh/primitives.h"
-#include "mesh/tangents.h"
+#include "relief/lanes/math.h"
+#include "relief/mesh/displace.h"
+#include "relief/mesh/primitives.h"
+#include "relief/mesh/tangents.h"
 
 using namespace relief;
 

@@ -1,10 +1,10 @@
 // Binning: every tile gets the triangles that cover a pixel of it, in submission order, and hardly any others.
-#include "pipeline/bin.h"
+#include "relief/pipeline/bin.h"
 
 #include <algorithm>
 
-#include "pipeline/edge_function.h"
 #include "pipeline_fixture.h"
+#include "relief/pipeline/edge_function.h"
 
 using namespace fixture;
 

@@ -1,9 +1,9 @@
 // Boxes around meshes.
-#include "mesh/bounds.h"
+#include "relief/mesh/bounds.h"
 
 #include <doctest/doctest.h>
 
-#include "mesh/primitives.h"
+#include "relief/mesh/primitives.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // The camera's matrices: where known points go, by algebra. And cameras that no picture needs: whatever matrix comes
 // out, the frame stays finite (stability case S-114).
-#include "shading/camera.h"
+#include "relief/shading/camera.h"
 
 #include <cmath>
 #include <limits>
@@ -10,7 +10,7 @@
 #include "common/camera.h"
 #include "common/render.h"
 #include "pipeline_fixture.h"
-#include "texture/cube_face.h"
+#include "relief/texture/cube_face.h"
 
 using namespace fixture;
 using namespace relief::samples;

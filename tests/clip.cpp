@@ -1,11 +1,11 @@
 // Clipping: cuts lie where they belong, neighbours cut alike, nothing is lost or doubled, and clipping itself does not
 // show. References are in double (see HomogeneousTriangle in pipeline_fixture.h).
-#include "pipeline/clip.h"
+#include "relief/pipeline/clip.h"
 
 #include <limits>
 
-#include "pipeline/viewport_transform.h"
 #include "pipeline_fixture.h"
+#include "relief/pipeline/viewport_transform.h"
 
 using namespace fixture;
 

@@ -1,5 +1,5 @@
 // sRGB both ways against the C library's pow in long double, over all codes and over the floats of 0..1.
-#include "texture/color_space.h"
+#include "relief/texture/color_space.h"
 
 #include <cmath>
 #include <cstring>

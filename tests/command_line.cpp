@@ -17,9 +17,9 @@
 
 #include "common/stage.h"
 #include "gltf_file.h"
+#include "relief/texture/cube_map.h"
+#include "relief/texture/image.h"
 #include "temporary_folder.h"
-#include "texture/cube_map.h"
-#include "texture/image.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Comparing pictures: counts every differing pixel, names the first ten, enlarges differences eight times.
-#include "check/compare.h"
+#include "relief/check/compare.h"
 
 #include <algorithm>
 #include <string>

@@ -1,5 +1,5 @@
 // SampleCmp against the definition, in double.
-#include "texture/comparison_sampler.h"
+#include "relief/texture/comparison_sampler.h"
 
 #include <doctest/doctest.h>
 

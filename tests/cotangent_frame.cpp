@@ -1,12 +1,12 @@
 // Cotangent frames: the same as algebra says on a plane, turned upside down, and where there is no frame (stability
 // cases S-503, S-655 and S-656; S-657 is in triplanar_stages.cpp).
-#include "shading/cotangent_frame.h"
+#include "relief/shading/cotangent_frame.h"
 
 #include <cmath>
 #include <limits>
 
 #include "common/triplanar_methods.h"
-#include "lanes/int.h"
+#include "relief/lanes/int.h"
 #include "shading_fixture.h"
 
 using namespace fixture;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "relief/texture/cube_sampler.h"
 #include "sampler_fixture.h"
-#include "texture/cube_sampler.h"
 
 namespace cube_fixture {
 

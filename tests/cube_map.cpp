@@ -1,6 +1,6 @@
 // Cube maps: that each face is where Direct3D has it, that all ways to make one agree, that filters see no edges, and
 // what is refused.
-#include "texture/cube_map.h"
+#include "relief/texture/cube_map.h"
 
 #include "cube_fixture.h"
 

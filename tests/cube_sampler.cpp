@@ -1,5 +1,5 @@
 // Samplers of cube maps: levels of detail against algebra, lanes that do not depend on each other, inputs of all kinds.
-#include "texture/cube_sampler.h"
+#include "relief/texture/cube_sampler.h"
 
 #include "cube_fixture.h"
 

@@ -1,5 +1,5 @@
 // ddx and ddy: differences of neighbours in a quad, fine and coarse, and where the lanes of a quad are.
-#include "hlsl/derivatives.h"
+#include "relief/hlsl/derivatives.h"
 
 #include <cmath>
 #include <set>

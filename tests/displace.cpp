@@ -1,5 +1,5 @@
 // Displaced meshes: heights that are known, and seams that stay closed.
-#include "mesh/displace.h"
+#include "relief/mesh/displace.h"
 
 #include <array>
 #include <cmath>
@@ -11,9 +11,9 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "lanes/math.h"
-#include "mesh/primitives.h"
-#include "mesh/spherical_uv.h"
+#include "relief/lanes/math.h"
+#include "relief/mesh/primitives.h"
+#include "relief/mesh/spherical_uv.h"
 
 using namespace relief;
 

@@ -186,11 +186,11 @@ TEST_CASE("documents: the engine's folders include downwards only")
         {"check", {"lanes", "hlsl", "texture", "mesh", "pipeline"}},
         {"trace", {"lanes", "hlsl", "texture", "mesh", "pipeline"}},
     };
-    const std::regex include(R"re(#include "([a-z_]+)/)re");
+    const std::regex include(R"re(#include "relief/([a-z_]+)/)re");
     int checked = 0;
     for (const auto& [folder, allowed] : below) {
         for (const std::string ending : {".h", ".cpp"}) {
-            for (const fs::path& path : filesEndingIn(kSource / "engine" / folder, ending)) {
+            for (const fs::path& path : filesEndingIn(kSource / "engine/relief" / folder, ending)) {
                 const std::string text = contents(path);
                 for (auto it = std::sregex_iterator(text.begin(), text.end(), include); it != std::sregex_iterator();
                      ++it) {
@@ -209,11 +209,11 @@ TEST_CASE("documents: the engine's folders include downwards only")
 TEST_CASE("documents: the engine's map names every file of it")
 {
     const std::string map = contents(kSource / "engine/README.md");
-    for (const fs::path& path : filesEndingIn(kSource / "engine", ".h")) {
+    for (const fs::path& path : filesEndingIn(kSource / "engine/relief", ".h")) {
         CAPTURE(path);
         CHECK(map.find("`" + path.filename().string() + "`") != std::string::npos);
     }
-    for (const fs::path& path : filesEndingIn(kSource / "engine", ".cpp")) {
+    for (const fs::path& path : filesEndingIn(kSource / "engine/relief", ".cpp")) {
         CAPTURE(path);
         CHECK((fs::exists(fs::path(path).replace_extension(".h")) ||
                map.find("`" + path.filename().string() + "`") != std::string::npos));
@@ -240,7 +240,7 @@ TEST_CASE("documents: nothing in the engine prints, exits or throws")
 {
     const std::regex forbidden(R"(\b(printf|std::cout|std::cerr|exit\(|abort\(|throw )\b)");
     for (const std::string ending : {".h", ".cpp"}) {
-        for (const fs::path& path : filesEndingIn(kSource / "engine", ending)) {
+        for (const fs::path& path : filesEndingIn(kSource / "engine/relief", ending)) {
             const std::string text = contents(path);
             std::smatch match;
             std::string code = std::regex_replace(text, std::regex("//[^\n]*"), "");

@@ -1,8 +1,8 @@
 // Draws: what programs are given and what becomes of what they give, beyond what one step of the pipeline's tests show.
-#include "pipeline/draw.h"
+#include "relief/pipeline/draw.h"
 
 #include "pipeline_fixture.h"
-#include "texture/sampler.h"
+#include "relief/texture/sampler.h"
 
 using namespace fixture;
 

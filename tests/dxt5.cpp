@@ -1,5 +1,5 @@
 // DXT5 blocks: decoded by hand-made ones with known answers, encoded within bounds, and the same bytes everywhere.
-#include "texture/dxt5.h"
+#include "relief/texture/dxt5.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include <doctest/doctest.h>
 
-#include "texture/pixels.h"
+#include "relief/texture/pixels.h"
 
 using namespace relief;
 

@@ -1,5 +1,5 @@
 // Edge functions: every value, sign and bound against plain exact arithmetic.
-#include "pipeline/edge_function.h"
+#include "relief/pipeline/edge_function.h"
 
 #include "pipeline_fixture.h"
 

@@ -1,5 +1,5 @@
 // Edges: who is whose neighbour, where an edge belongs to one, two or more triangles.
-#include "mesh/edges.h"
+#include "relief/mesh/edges.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 // Prefiltered surroundings against integrals in double, and what must hold exactly.
-#include "shading/environment.h"
+#include "relief/shading/environment.h"
 
 #include "cube_fixture.h"
-#include "pipeline/workers.h"
+#include "relief/pipeline/workers.h"
 
 using namespace cube_fixture;
 

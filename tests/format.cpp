@@ -1,5 +1,5 @@
 // The formats of targets: what each of them stores, and gives back.
-#include "pipeline/format.h"
+#include "relief/pipeline/format.h"
 
 #include "pipeline_fixture.h"
 

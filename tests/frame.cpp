@@ -1,6 +1,6 @@
 // Whole frames: coverage through all of the pipeline, viewports and scissors, and the promise that threads, tiles and
 // repetition never show in the result.
-#include "pipeline/frame.h"
+#include "relief/pipeline/frame.h"
 
 #include <algorithm>
 #include <cfenv>

@@ -3,9 +3,9 @@
 #include <chrono>
 #include <memory>
 
-#include "pipeline/frame_storage.h"
-#include "pipeline/instruments.h"
 #include "pipeline_fixture.h"
+#include "relief/pipeline/frame_storage.h"
+#include "relief/pipeline/instruments.h"
 
 using namespace fixture;
 

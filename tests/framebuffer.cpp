@@ -1,10 +1,10 @@
 // The render target: sizes, formats, and what it holds before anything is drawn.
-#include "pipeline/framebuffer.h"
+#include "relief/pipeline/framebuffer.h"
 
 #include <string>
 
-#include "pipeline/format.h"
 #include "pipeline_fixture.h"
+#include "relief/pipeline/format.h"
 
 using namespace fixture;
 

@@ -1,5 +1,5 @@
 // Palettes that are shorter than what pixels name, and those of OS/2's BMPs.
-#include "texture/full_palette.h"
+#include "relief/texture/full_palette.h"
 
 #include <cstdint>
 #include <string>
@@ -7,8 +7,8 @@
 
 #include <doctest/doctest.h>
 
+#include "relief/texture/image.h"
 #include "temporary_folder.h"
-#include "texture/image.h"
 
 using namespace relief;
 

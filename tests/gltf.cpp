@@ -1,6 +1,6 @@
 // glTF files: conversion to the left-handed world, every kind of data and material, and one clear line for every bad
 // file.
-#include "scene/gltf.h"
+#include "relief/scene/gltf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@
 
 #include "gltf_file.h"
 #include "png16.h"
+#include "relief/texture/image.h"
 #include "temporary_folder.h"
-#include "texture/image.h"
 
 using namespace relief;
 using nlohmann::json;

@@ -1,14 +1,14 @@
 // Golden pictures: the same picture passes; a missing, unreadable, differently sized or different one fails and says
 // so.
-#include "check/golden.h"
+#include "relief/check/golden.h"
 
 #include <filesystem>
 #include <string>
 
 #include <doctest/doctest.h>
 
+#include "relief/texture/image.h"
 #include "temporary_folder.h"
-#include "texture/image.h"
 
 namespace {
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "check/golden.h"
 #include "common/inside.h"
 #include "common/render.h"
+#include "relief/check/golden.h"
 
 namespace relief::samples {
 

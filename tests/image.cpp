@@ -1,6 +1,6 @@
 // Image files: what is written comes back, every supported format decodes, and every kind of bad file is one clear
 // line.
-#include "texture/image.h"
+#include "relief/texture/image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@
 
 #include <doctest/doctest.h>
 
-#include "file.h"
 #include "png16.h"
+#include "relief/file.h"
+#include "relief/texture/import.h"
 #include "temporary_folder.h"
-#include "texture/import.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // Imports: levels that are made late and from the right source, heights or colours, faded or compressed. What storage
 // costs is in import_storage.cpp, files are in import_files.cpp.
-#include "texture/import.h"
+#include "relief/texture/import.h"
 
 #include <cmath>
 #include <utility>
@@ -8,8 +8,8 @@
 #include <doctest/doctest.h>
 
 #include "import_fixture.h"
+#include "relief/texture/pixels.h"
 #include "sampler_fixture.h"
-#include "texture/pixels.h"
 
 using namespace import_fixture;
 

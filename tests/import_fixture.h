@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "texture/import.h"
+#include "relief/texture/import.h"
 
 namespace import_fixture {
 

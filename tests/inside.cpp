@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "check/hash.h"
 #include "common/overlay.h"
 #include "common/render.h"
 #include "pipeline_fixture.h"
+#include "relief/check/hash.h"
 
 using namespace fixture;
 using namespace relief::samples;

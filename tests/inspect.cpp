@@ -1,8 +1,8 @@
 // Looking inside a frame: every view against numbers known by hand, and the frame that it leaves behind.
-#include "pipeline/inspect.h"
+#include "relief/pipeline/inspect.h"
 
 #include "pipeline_fixture.h"
-#include "texture/sampler.h"
+#include "relief/texture/sampler.h"
 
 using namespace fixture;
 

@@ -1,5 +1,5 @@
 // Instruments: what a frame depends on, and what its programs cost alone.
-#include "pipeline/instruments.h"
+#include "relief/pipeline/instruments.h"
 
 #include "pipeline_fixture.h"
 

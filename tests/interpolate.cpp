@@ -1,6 +1,6 @@
 // Interpolation: weights against exact arithmetic, perspective against affine, what helper lanes hold, and the contents
 // of SV_POSITION.
-#include "pipeline/interpolate.h"
+#include "relief/pipeline/interpolate.h"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // HLSL's intrinsics and operators on lanes: known answers, the ends of the range, and which way round matrices go.
-#include "hlsl/intrinsics.h"
+#include "relief/hlsl/intrinsics.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,8 +8,8 @@
 
 #include <doctest/doctest.h>
 
-#include "hlsl/semantics.h"
 #include "lane_check.h"
+#include "relief/hlsl/semantics.h"
 #include "stability.h"
 
 using namespace relief;

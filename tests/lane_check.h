@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "lanes/float.h"
+#include "relief/lanes/float.h"
 
 namespace lane_check {
 

@@ -12,10 +12,10 @@
 #include <doctest/doctest.h>
 
 #include "lane_check.h"
-#include "lanes/double.h"
-#include "lanes/environment.h"
-#include "lanes/float.h"
-#include "texture/shading_scope.h"
+#include "relief/lanes/double.h"
+#include "relief/lanes/environment.h"
+#include "relief/lanes/float.h"
+#include "relief/texture/shading_scope.h"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>

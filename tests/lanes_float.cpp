@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "lane_check.h"
-#include "lanes/float.h"
+#include "relief/lanes/float.h"
 
 using namespace relief;
 using namespace lane_check;

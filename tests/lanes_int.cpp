@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "lane_check.h"
-#include "lanes/int.h"
+#include "relief/lanes/int.h"
 
 using namespace relief;
 using namespace lane_check;

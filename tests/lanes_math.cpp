@@ -1,7 +1,7 @@
 // exp, log, pow, sin, cos and their like: the largest error over all mantissas stays below what lanes/math.h promises,
 // values join where one piece of the computation gives way to the next, and the bits are the same in every build.
 // RELIEF_SHORT_TESTS (slow builds) looks at every seventeenth number only.
-#include "lanes/math.h"
+#include "relief/lanes/math.h"
 
 #include <algorithm>
 #include <bit>

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "common/render.h"
-#include "leave_out.h"
-#include "mesh/primitives.h"
-#include "pipeline/instruments.h"
 #include "pipeline_fixture.h"
-#include "shading/lights.h"
+#include "relief/leave_out.h"
+#include "relief/mesh/primitives.h"
+#include "relief/pipeline/instruments.h"
+#include "relief/shading/lights.h"
 
 using namespace fixture;
 using namespace relief::samples;

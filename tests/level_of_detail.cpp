@@ -1,6 +1,6 @@
 // Levels of detail: the table of reference values, and what must hold for any derivatives. Then the same through a
 // sampler, with limits and bias.
-#include "texture/level_of_detail.h"
+#include "relief/texture/level_of_detail.h"
 
 #include <array>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include <doctest/doctest.h>
 
+#include "relief/texture/sampler.h"
 #include "sampler_fixture.h"
-#include "texture/sampler.h"
 
 using namespace sampler_fixture;
 

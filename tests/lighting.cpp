@@ -1,5 +1,5 @@
 // The lighting model in both forms: known values, energy, and extreme inputs (stability cases S-802 to S-812).
-#include "shading/lighting.h"
+#include "relief/shading/lighting.h"
 
 #include <limits>
 

@@ -1,9 +1,9 @@
 // Lights: attenuation, cones, reach, lights per vertex and spherical harmonics (stability cases S-801, S-815 to S-820).
-#include "shading/lights.h"
+#include "relief/shading/lights.h"
 
 #include <limits>
 
-#include "mesh/primitives.h"
+#include "relief/mesh/primitives.h"
 #include "shading_fixture.h"
 
 using namespace fixture;

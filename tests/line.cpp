@@ -1,5 +1,5 @@
 // Lines against their own definition in exact integers, clipped lines against whole ones, and lines in a picture.
-#include "pipeline/line.h"
+#include "relief/pipeline/line.h"
 
 #include <cstdlib>
 #include <limits>

@@ -10,12 +10,12 @@
 
 #include <doctest/doctest.h>
 
-#include "check/hash.h"
 #include "common/render.h"
 #include "gltf_file.h"
-#include "pipeline/frame.h"
-#include "pipeline/save.h"
-#include "scene/gltf.h"
+#include "relief/check/hash.h"
+#include "relief/pipeline/frame.h"
+#include "relief/pipeline/save.h"
+#include "relief/scene/gltf.h"
 #include "temporary_folder.h"
 
 using namespace relief;

@@ -1,5 +1,5 @@
 // Loops that each pixel leaves for itself.
-#include "shading/loop.h"
+#include "relief/shading/loop.h"
 
 #include <doctest/doctest.h>
 

@@ -1,11 +1,11 @@
 // Matrices of lanes: every shape of mul, the same bits by `*`, transposition and determinants. tests/intrinsics.cpp has
 // which way round matrices go.
-#include "hlsl/matrix.h"
+#include "relief/hlsl/matrix.h"
 
 #include <doctest/doctest.h>
 
-#include "hlsl/types.h"
 #include "lane_check.h"
+#include "relief/hlsl/types.h"
 
 using namespace relief;
 using namespace lane_check;

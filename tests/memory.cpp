@@ -1,5 +1,5 @@
 // Small inputs that ask for much memory: an error where there is none, and no end of the program.
-#include "memory.h"
+#include "relief/memory.h"
 
 #include <csignal>
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 #include <doctest/doctest.h>
 
-#include "file.h"
-#include "mesh/bake.h"
-#include "mesh/primitives.h"
-#include "mesh/tangents.h"
+#include "relief/file.h"
+#include "relief/mesh/bake.h"
+#include "relief/mesh/primitives.h"
+#include "relief/mesh/tangents.h"
+#include "relief/texture/image.h"
+#include "relief/texture/texture.h"
 #include "temporary_folder.h"
-#include "texture/image.h"
-#include "texture/texture.h"
 
 using namespace relief;
 

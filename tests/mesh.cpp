@@ -1,5 +1,5 @@
 // Meshes: what validate() refuses, and normals whose directions are known.
-#include "mesh/mesh.h"
+#include "relief/mesh/mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "mesh/primitives.h"
-#include "mesh/triangulate.h"
+#include "relief/mesh/primitives.h"
+#include "relief/mesh/triangulate.h"
 
 using namespace relief;
 

@@ -1,15 +1,15 @@
 // Fading: where it begins and ends, even steps between, grey to the bit, and alpha untouched.
-#include "texture/mip_fade.h"
+#include "relief/texture/mip_fade.h"
 
 #include <algorithm>
 #include <cstdlib>
 
 #include <doctest/doctest.h>
 
-#include "shading/lighting.h"
+#include "relief/shading/lighting.h"
+#include "relief/texture/pixels.h"
+#include "relief/texture/texture.h"
 #include "stability.h"
-#include "texture/pixels.h"
-#include "texture/texture.h"
 
 using namespace relief;
 using stability::measured;

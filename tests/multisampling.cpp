@@ -2,9 +2,9 @@
 // the pictures that have one sample a pixel there.
 #include <doctest/doctest.h>
 
-#include "pipeline/edge_function.h"
-#include "pipeline/instruments.h"
 #include "pipeline_fixture.h"
+#include "relief/pipeline/edge_function.h"
+#include "relief/pipeline/instruments.h"
 
 using namespace fixture;
 

@@ -1,5 +1,5 @@
 // Octahedral normals and packed numbers, against double and by their codes.
-#include "shading/normal_encoding.h"
+#include "relief/shading/normal_encoding.h"
 
 #include <limits>
 #include <random>

@@ -1,6 +1,6 @@
 // Normals: known slopes give known vectors, borders wrap, what has no direction is flat, and codes are as near as codes
 // can be.
-#include "texture/normal_map.h"
+#include "relief/texture/normal_map.h"
 
 #include <cmath>
 #include <cstring>

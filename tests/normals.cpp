@@ -1,5 +1,5 @@
 // Decoding and blending of tangent-space normals, ordinary and extreme (stability cases S-601 to S-620).
-#include "shading/normals.h"
+#include "relief/shading/normals.h"
 
 #include <bit>
 #include <limits>

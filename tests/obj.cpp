@@ -1,5 +1,5 @@
 // OBJ files: conversion to the left-handed world, welding, polygons, normals, and one clear line for every bad file.
-#include "mesh/obj.h"
+#include "relief/mesh/obj.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Numbers of OBJ files: what is one, and which float it is.
-#include "mesh/obj_number.h"
+#include "relief/mesh/obj_number.h"
 
 #include <bit>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-#include "lanes/environment.h"
+#include "relief/lanes/environment.h"
 
 using relief::parseDecimal;
 

@@ -1,11 +1,11 @@
 // Objects' matrices: normals under any scale, mirrored objects, places far from the origin, and normals without a
 // direction (stability cases S-107 to S-111, S-409).
-#include "shading/object_transform.h"
+#include "relief/shading/object_transform.h"
 
 #include <limits>
 
-#include "mesh/primitives.h"
 #include "pipeline_fixture.h"
+#include "relief/mesh/primitives.h"
 #include "shading_fixture.h"
 
 using namespace fixture;

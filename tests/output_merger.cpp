@@ -1,6 +1,6 @@
 // The output merger: depth tests and their coarse bounds, conversion to 8 bits and sRGB, blending, and what never gets
 // into a target.
-#include "pipeline/output_merger.h"
+#include "relief/pipeline/output_merger.h"
 
 #include <algorithm>
 #include <limits>

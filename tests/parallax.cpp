@@ -1,6 +1,6 @@
 // Parallax functions: the pictures of the stages that show them, surfaces whose answer is known, and directions and
 // heights that break the obvious form.
-#include "shading/parallax.h"
+#include "relief/shading/parallax.h"
 
 #include <limits>
 

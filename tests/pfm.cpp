@@ -1,5 +1,5 @@
 // PFM files: what is written comes back bit for bit, other programs' kinds decode, bad ones are one clear line.
-#include "texture/pfm.h"
+#include "relief/texture/pfm.h"
 
 #include <cmath>
 #include <cstring>

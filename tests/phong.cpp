@@ -10,9 +10,9 @@
 #include <doctest/doctest.h>
 
 #include "common/render.h"
-#include "hlsl/intrinsics.h"
 #include "lane_check.h"
-#include "mesh/primitives.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/mesh/primitives.h"
 #include "stability.h"
 
 namespace {

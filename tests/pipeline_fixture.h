@@ -14,10 +14,10 @@
 
 #include <doctest/doctest.h>
 
-#include "check/hash.h"
-#include "hlsl/derivatives.h"
-#include "pipeline/frame.h"
-#include "pipeline/vertex.h"
+#include "relief/check/hash.h"
+#include "relief/hlsl/derivatives.h"
+#include "relief/pipeline/frame.h"
+#include "relief/pipeline/vertex.h"
 #include "stability.h"
 
 namespace fixture {

@@ -1,5 +1,5 @@
 // Pixels to level 0: formats and orders are held by texture.cpp; here what importers add, and the tables of the curve.
-#include "texture/pixels.h"
+#include "relief/texture/pixels.h"
 
 #include <cstdlib>
 

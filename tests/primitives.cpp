@@ -1,6 +1,6 @@
 // Primitives: conventions (winding, uv, tangents), closed surfaces, finite numbers for every count, the same bits
 // always.
-#include "mesh/primitives.h"
+#include "relief/mesh/primitives.h"
 
 #include <algorithm>
 #include <array>

@@ -9,13 +9,13 @@
 #include <memory>
 #include <vector>
 
-#include "pipeline/frame.h"
-#include "shading/cotangent_frame.h"
-#include "shading/lights.h"
-#include "shading/normals.h"
-#include "shading/object_transform.h"
-#include "shading/tangent_space.h"
-#include "shading/triplanar.h"
+#include "relief/pipeline/frame.h"
+#include "relief/shading/cotangent_frame.h"
+#include "relief/shading/lights.h"
+#include "relief/shading/normals.h"
+#include "relief/shading/object_transform.h"
+#include "relief/shading/tangent_space.h"
+#include "relief/shading/triplanar.h"
 
 namespace random_scene {
 

@@ -1,6 +1,6 @@
 // Rasterisation: coverage equals exact integer arithmetic, shared edges are hit exactly once, blocks come out as
 // promised, and nothing depends on how the screen is cut up.
-#include "pipeline/raster.h"
+#include "relief/pipeline/raster.h"
 
 #include <algorithm>
 

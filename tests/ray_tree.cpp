@@ -1,6 +1,6 @@
 // Rays against meshes: hits that are known by algebra, rays through edges and corners, and every triangle tried in
 // turn.
-#include "mesh/ray_tree.h"
+#include "relief/mesh/ray_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "mesh/primitives.h"
+#include "relief/mesh/primitives.h"
 
 using namespace relief;
 

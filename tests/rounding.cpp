@@ -1,6 +1,6 @@
 // Meshes, levels and pictures are the same whatever floating-point environment the caller is in: rounding upwards, and
 // on x86 with subnormal numbers taken for 0.
-#include "lanes/environment.h"
+#include "relief/lanes/environment.h"
 
 #include <bit>
 #include <cfenv>
@@ -12,22 +12,22 @@
 
 #include <doctest/doctest.h>
 
-#include "mesh/bake.h"
-#include "mesh/bake_error.h"
-#include "mesh/bounds.h"
-#include "mesh/displace.h"
-#include "mesh/obj.h"
-#include "mesh/primitives.h"
-#include "mesh/ray_tree.h"
-#include "mesh/spherical_uv.h"
-#include "mesh/tangents.h"
-#include "mesh/triangulate.h"
+#include "relief/mesh/bake.h"
+#include "relief/mesh/bake_error.h"
+#include "relief/mesh/bounds.h"
+#include "relief/mesh/displace.h"
+#include "relief/mesh/obj.h"
+#include "relief/mesh/primitives.h"
+#include "relief/mesh/ray_tree.h"
+#include "relief/mesh/spherical_uv.h"
+#include "relief/mesh/tangents.h"
+#include "relief/mesh/triangulate.h"
+#include "relief/texture/dxt5.h"
+#include "relief/texture/import.h"
+#include "relief/texture/mip_fade.h"
+#include "relief/texture/pixels.h"
+#include "relief/texture/texture.h"
 #include "temporary_folder.h"
-#include "texture/dxt5.h"
-#include "texture/import.h"
-#include "texture/mip_fade.h"
-#include "texture/pixels.h"
-#include "texture/texture.h"
 
 using namespace relief;
 

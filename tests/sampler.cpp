@@ -1,8 +1,8 @@
 // The sampler against a brute-force reference and against what must hold exactly; and that a lane's result is its own.
-#include "texture/sampler.h"
+#include "relief/texture/sampler.h"
 
+#include "relief/texture/fetch.h"
 #include "sampler_fixture.h"
-#include "texture/fetch.h"
 
 using namespace sampler_fixture;
 

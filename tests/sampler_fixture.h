@@ -8,10 +8,10 @@
 
 #include <doctest/doctest.h>
 
-#include "hlsl/derivatives.h"
+#include "relief/hlsl/derivatives.h"
+#include "relief/texture/sampler.h"
+#include "relief/texture/shading_scope.h"
 #include "stability.h"
-#include "texture/sampler.h"
-#include "texture/shading_scope.h"
 
 namespace sampler_fixture {
 

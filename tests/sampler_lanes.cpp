@@ -1,6 +1,6 @@
 // The sampler on blocks whose lanes want different things: each lane gets what it would get alone, lanes that do not
 // count cost nothing, and the counters count lanes. Anisotropic sampling is here too.
-#include "texture/sampler.h"
+#include "relief/texture/sampler.h"
 
 #include "sampler_fixture.h"
 

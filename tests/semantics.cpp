@@ -1,7 +1,7 @@
 // Structs of semantics: how their fields are counted, listed and walked, and what counts as none.
-#include "hlsl/semantics.h"
+#include "relief/hlsl/semantics.h"
 
-#include "hlsl/intrinsics.h"
+#include "relief/hlsl/intrinsics.h"
 
 #include <cstddef>
 #include <cstring>

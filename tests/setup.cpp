@@ -1,6 +1,6 @@
 // Triangle setup: culling by the snapped orientation, what is dropped and counted as what, and the order of what is
 // left.
-#include "pipeline/setup.h"
+#include "relief/pipeline/setup.h"
 
 #include <limits>
 

@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "hlsl/intrinsics.h"
+#include "relief/hlsl/intrinsics.h"
 #include "stability.h"
 
 namespace fixture {

@@ -3,15 +3,15 @@
 #include <array>
 #include <cmath>
 
-#include "mesh/primitives.h"
-#include "mesh/tangents.h"
 #include "pipeline_fixture.h"
-#include "shading/lights.h"
-#include "shading/normals.h"
-#include "shading/object_transform.h"
-#include "shading/tangent_space.h"
-#include "texture/import.h"
-#include "texture/sampler.h"
+#include "relief/mesh/primitives.h"
+#include "relief/mesh/tangents.h"
+#include "relief/shading/lights.h"
+#include "relief/shading/normals.h"
+#include "relief/shading/object_transform.h"
+#include "relief/shading/tangent_space.h"
+#include "relief/texture/import.h"
+#include "relief/texture/sampler.h"
 
 using namespace fixture;
 

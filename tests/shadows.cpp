@@ -1,13 +1,13 @@
 // Shadow filters: the pictures of stage 5.06, means of comparisons, and light that grazes.
-#include "shading/shadows.h"
+#include "relief/shading/shadows.h"
 
 #include <limits>
 
 #include "common/render.h"
-#include "pipeline/target_texture.h"
 #include "pipeline_fixture.h"
-#include "shading/camera.h"
-#include "shading/object_transform.h"
+#include "relief/pipeline/target_texture.h"
+#include "relief/shading/camera.h"
+#include "relief/shading/object_transform.h"
 
 using namespace fixture;
 using namespace relief::samples;

@@ -1,5 +1,5 @@
 // The output-signature table: the two that the tangent-space tutorial shows, and how registers are shared.
-#include "hlsl/signature.h"
+#include "relief/hlsl/signature.h"
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // Spherical uvs: makeSphere's own are found again; seams, poles and meshes without an inside.
-#include "mesh/spherical_uv.h"
+#include "relief/mesh/spherical_uv.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <doctest/doctest.h>
 #include <glm/common.hpp>
 
-#include "mesh/primitives.h"
+#include "relief/mesh/primitives.h"
 
 using namespace relief;
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "pipeline/instruments.h"
 #include "pipeline_fixture.h"
+#include "relief/pipeline/instruments.h"
 
 using namespace fixture;
 

@@ -1,5 +1,5 @@
 // The frame that normal maps are decoded in: against the shader's own functions, and its inverse.
-#include "mesh/tangent_frame.h"
+#include "relief/mesh/tangent_frame.h"
 
 #include <array>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include <doctest/doctest.h>
 
-#include "mesh/primitives.h"
-#include "mesh/tangents.h"
-#include "shading/tangent_space.h"
+#include "relief/mesh/primitives.h"
+#include "relief/mesh/tangents.h"
+#include "relief/shading/tangent_space.h"
 
 using namespace relief;
 

@@ -1,12 +1,12 @@
 // The tangent frame, ordinary and extreme (stability cases S-620, S-651 to S-653, S-659, S-660).
-#include "shading/tangent_space.h"
+#include "relief/shading/tangent_space.h"
 
 #include <array>
 #include <bit>
 #include <limits>
 
-#include "mesh/primitives.h"
-#include "shading/object_transform.h"
+#include "relief/mesh/primitives.h"
+#include "relief/shading/object_transform.h"
 #include "shading_fixture.h"
 
 using namespace fixture;

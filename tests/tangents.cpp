@@ -1,6 +1,6 @@
 // Tangents: MikkTSpace's reference corner by corner (tests/fixtures/mikktspace), the primitives' own tangents, and unit
 // vectors for whatever a mesh may hold.
-#include "mesh/tangents.h"
+#include "relief/mesh/tangents.h"
 
 #include <algorithm>
 #include <array>

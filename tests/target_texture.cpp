@@ -1,5 +1,5 @@
 // A target's attachments as textures.
-#include "pipeline/target_texture.h"
+#include "relief/pipeline/target_texture.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Texels that triangles cover: counts known by algebra, no gap and no overlap along edges, wrapping.
-#include "mesh/texels.h"
+#include "relief/mesh/texels.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "mesh/primitives.h"
+#include "relief/mesh/primitives.h"
 
 using namespace relief;
 

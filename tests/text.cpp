@@ -1,5 +1,5 @@
 // The letters of mesh/text.h, pixel by pixel.
-#include "mesh/text.h"
+#include "relief/mesh/text.h"
 
 #include <string>
 

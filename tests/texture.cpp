@@ -1,6 +1,6 @@
 // Textures: what comes in is what lies in memory, levels are area averages for any size, and they are built once, when
 // somebody asks.
-#include "texture/texture.h"
+#include "relief/texture/texture.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,6 +1,6 @@
 // A tile in its own order of pixels: what is loaded is stored again, whatever the format, the size and the part of the
 // tile that lies in the target, and nothing else in the target changes.
-#include "pipeline/tile.h"
+#include "relief/pipeline/tile.h"
 
 #include <bit>
 #include <cstring>

@@ -1,6 +1,6 @@
 // Triplanar mapping: weights (stability cases S-701 to S-709), the methods against surfaces that are moved in double
 // (T-05), and signs: six sides, both handednesses, both kinds of normal map (S-713).
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 #include <algorithm>
 #include <array>

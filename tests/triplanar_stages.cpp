@@ -6,10 +6,10 @@
 
 #include "common/render.h"
 #include "common/triplanar_methods.h"
-#include "file.h"
 #include "pipeline_fixture.h"
-#include "shading/cotangent_frame.h"
-#include "shading/triplanar.h"
+#include "relief/file.h"
+#include "relief/shading/cotangent_frame.h"
+#include "relief/shading/triplanar.h"
 #include "temporary_folder.h"
 
 using namespace fixture;

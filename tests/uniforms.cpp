@@ -4,9 +4,9 @@
 
 #include "common/render.h"
 #include "pipeline_fixture.h"
-#include "shading/environment.h"
+#include "relief/shading/environment.h"
+#include "relief/texture/image.h"
 #include "temporary_folder.h"
-#include "texture/image.h"
 
 namespace {
 

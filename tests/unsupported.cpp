@@ -1,5 +1,5 @@
 // Intact files of kinds that are not read: the message names the kind, and a remedy that helps.
-#include "texture/unsupported.h"
+#include "relief/texture/unsupported.h"
 
 #include <cstdint>
 #include <string>
@@ -7,8 +7,8 @@
 
 #include <doctest/doctest.h>
 
+#include "relief/texture/image.h"
 #include "temporary_folder.h"
-#include "texture/image.h"
 
 using namespace relief;
 

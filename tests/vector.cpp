@@ -1,12 +1,12 @@
 // Vectors of lanes: their components and swizzles, what they are made of, and what may stand beside one in an operator.
-#include "hlsl/vector.h"
+#include "relief/hlsl/vector.h"
 
 #include <initializer_list>
 #include <type_traits>
 
 #include <doctest/doctest.h>
 
-#include "hlsl/semantics.h"
+#include "relief/hlsl/semantics.h"
 
 using namespace relief;
 

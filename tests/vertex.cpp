@@ -1,10 +1,10 @@
 // The vertex stage: snapping, codes, screen positions, and what a vertex program gets to read.
-#include "pipeline/vertex.h"
+#include "relief/pipeline/vertex.h"
 
 #include <limits>
 
-#include "pipeline/viewport_transform.h"
 #include "pipeline_fixture.h"
+#include "relief/pipeline/viewport_transform.h"
 
 using namespace fixture;
 

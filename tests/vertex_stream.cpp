@@ -1,8 +1,8 @@
 // Vertex streams: what a draw finds in a mesh, and what it says where it does not; parts of a mesh, and instances.
-#include "mesh/vertex_stream.h"
+#include "relief/mesh/vertex_stream.h"
 
-#include "pipeline/vertex.h"
 #include "pipeline_fixture.h"
+#include "relief/pipeline/vertex.h"
 
 using namespace fixture;
 

@@ -1,5 +1,5 @@
 // Welding: equal records are found, -0 is 0; vertices split where their corners disagree, and nowhere else.
-#include "mesh/weld.h"
+#include "relief/mesh/weld.h"
 
 #include <array>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "mesh/primitives.h"
+#include "relief/mesh/primitives.h"
 
 using namespace relief;
 

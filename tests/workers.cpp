@@ -1,5 +1,5 @@
 // The pool of threads: every task runs once, the pool can be used again, and all of them compute alike.
-#include "pipeline/workers.h"
+#include "relief/pipeline/workers.h"
 
 #include <atomic>
 #include <cfenv>

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <cstring>
 
-#include "check/golden.h"
-#include "check/hash.h"
-#include "relief.h"
+#include <relief/check/golden.h>
+#include <relief/check/hash.h>
+#include <relief/relief.h>
 
 using namespace relief;
 

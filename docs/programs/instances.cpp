@@ -2,8 +2,8 @@
 // Writes instances.png.
 #include <cstdio>
 
-#include "relief.h"
-#include "shading/camera.h"
+#include <relief/relief.h>
+#include <relief/shading/camera.h>
 
 using namespace relief;
 

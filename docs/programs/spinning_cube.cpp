@@ -2,8 +2,8 @@
 // them. Writes twelve frames of one turn, cube-00.png to cube-11.png.
 #include <cstdio>
 
-#include "relief.h"
-#include "shading/camera.h"
+#include <relief/relief.h>
+#include <relief/shading/camera.h>
 
 using namespace relief;
 

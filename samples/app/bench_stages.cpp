@@ -3,7 +3,7 @@
 
 #include "command_line.h"
 #include "cost.h"
-#include "pipeline/workers.h"
+#include "relief/pipeline/workers.h"
 
 namespace relief::samples {
 

@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "leave_out.h"
-#include "pipeline/limits.h"
+#include "relief/leave_out.h"
+#include "relief/pipeline/limits.h"
 #include "report_options.h"
 
 namespace relief::samples {

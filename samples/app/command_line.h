@@ -2,8 +2,8 @@
 // them knows all commands, so their words, help and messages are the same everywhere.
 #pragma once
 
-#include "error.h"
 #include "options.h"
+#include "relief/error.h"
 
 namespace relief::samples {
 

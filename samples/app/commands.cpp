@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "common/inside.h"
-#include "pipeline/instruments.h"
+#include "relief/pipeline/instruments.h"
+#include "relief/trace/variable.h"
 #include "trace/command.h"
-#include "trace/variable.h"
 
 namespace relief::samples {
 

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "file.h"
+#include "relief/file.h"
 
 namespace relief::samples {
 

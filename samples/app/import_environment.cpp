@@ -8,10 +8,10 @@
 #include <unistd.h>
 
 #include "command_line.h"
-#include "path.h"
-#include "pipeline/workers.h"
-#include "shading/environment.h"
-#include "texture/image.h"
+#include "relief/path.h"
+#include "relief/pipeline/workers.h"
+#include "relief/shading/environment.h"
+#include "relief/texture/image.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/input_files.h"
-#include "pipeline/limits.h"
+#include "relief/pipeline/limits.h"
 
 namespace relief::samples {
 

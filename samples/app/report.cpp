@@ -8,7 +8,7 @@
 
 #include "common/shell.h"
 #include "cost.h"
-#include "file.h"
+#include "relief/file.h"
 #include "report_options.h"
 
 namespace relief::samples {

@@ -1,8 +1,8 @@
 // Reports: measurements of this machine, written into a folder as text, table and plot. What they have in common.
 #pragma once
 
-#include "error.h"
 #include "options.h"
+#include "relief/error.h"
 
 namespace relief::samples {
 

@@ -5,7 +5,7 @@
 
 #include "command_line.h"
 #include "cost.h"
-#include "leave_out.h"
+#include "relief/leave_out.h"
 #include "report.h"
 #include "usage.h"
 

@@ -1,8 +1,8 @@
 // The reports that there are, and which options each of them takes.
 #pragma once
 
-#include "error.h"
 #include "options.h"
+#include "relief/error.h"
 
 namespace relief::samples {
 

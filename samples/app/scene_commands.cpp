@@ -3,9 +3,9 @@
 
 #include "commands.h"
 #include "common/lit_scene.h"
-#include "path.h"
-#include "pipeline/save.h"
-#include "scene/gltf.h"
+#include "relief/path.h"
+#include "relief/pipeline/save.h"
+#include "relief/scene/gltf.h"
 
 namespace relief::samples {
 

@@ -6,14 +6,14 @@
 #include <filesystem>
 
 #include "common/camera.h"
-#include "mesh/primitives.h"
-#include "pipeline/format.h"
-#include "relief.h"
+#include "relief/mesh/primitives.h"
+#include "relief/pipeline/format.h"
+#include "relief/relief.h"
+#include "relief/shading/cotangent_frame.h"
+#include "relief/shading/normals.h"
+#include "relief/shading/triplanar.h"
+#include "relief/texture/image.h"
 #include "report.h"
-#include "shading/cotangent_frame.h"
-#include "shading/normals.h"
-#include "shading/triplanar.h"
-#include "texture/image.h"
 
 namespace relief::samples {
 

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "pipeline/instruments.h"
+#include "relief/pipeline/instruments.h"
 
 namespace relief::samples {
 

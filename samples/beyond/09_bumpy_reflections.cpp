@@ -2,7 +2,7 @@
 // New: normal maps decide where a mirror looks; roughness decides how much of the surroundings it mixes.
 // Was: a smooth sphere (5.08).
 #include "common/stage.h"
-#include "shading/environment.h"
+#include "relief/shading/environment.h"
 
 namespace relief::samples {
 namespace {

@@ -2,7 +2,7 @@
 // New: metallic, smoothness, occlusion, emission and where detail is, all from maps.
 // Was: one number for all of a surface (1.25).
 #include "common/stage.h"
-#include "shading/environment.h"
+#include "relief/shading/environment.h"
 
 namespace relief::samples {
 namespace {

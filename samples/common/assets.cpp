@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <map>
 
-#include "mesh/bounds.h"
-#include "mesh/primitives.h"
+#include "relief/mesh/bounds.h"
+#include "relief/mesh/primitives.h"
 
 namespace relief::samples {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "error.h"
-#include "mesh/mesh.h"
+#include "relief/error.h"
+#include "relief/mesh/mesh.h"
 
 namespace relief::samples {
 

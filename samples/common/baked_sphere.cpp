@@ -2,12 +2,12 @@
 
 #include <cstdio>
 
-#include "lanes/math.h"
-#include "mesh/bake_error.h"
-#include "mesh/displace.h"
-#include "mesh/primitives.h"
-#include "mesh/tangents.h"
-#include "texture/import.h"
+#include "relief/lanes/math.h"
+#include "relief/mesh/bake_error.h"
+#include "relief/mesh/displace.h"
+#include "relief/mesh/primitives.h"
+#include "relief/mesh/tangents.h"
+#include "relief/texture/import.h"
 
 namespace relief::samples {
 

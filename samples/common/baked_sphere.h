@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
-#include "texture/texture.h"
+#include "relief/mesh/mesh.h"
+#include "relief/texture/texture.h"
 
 namespace relief::samples {
 

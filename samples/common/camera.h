@@ -1,10 +1,10 @@
-// The camera of a stage, and the matrices that it stands for (engine/shading/camera.h).
+// The camera of a stage, and the matrices that it stands for (engine/relief/shading/camera.h).
 #pragma once
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-#include "shading/camera.h"
+#include "relief/shading/camera.h"
 
 namespace relief::samples {
 

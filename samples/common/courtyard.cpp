@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "lanes/environment.h"
-#include "pipeline/workers.h"
+#include "relief/lanes/environment.h"
+#include "relief/pipeline/workers.h"
 
 namespace relief::samples {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "error.h"
-#include "texture/import.h"
+#include "relief/error.h"
+#include "relief/texture/import.h"
 
 namespace relief::samples {
 

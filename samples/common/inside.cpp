@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/overlay.h"
-#include "trace/variable.h"
+#include "relief/trace/variable.h"
 
 namespace relief::samples {
 

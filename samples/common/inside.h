@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/overlay.h"
-#include "pipeline/inspect.h"
+#include "relief/pipeline/inspect.h"
 
 namespace relief::samples {
 

@@ -6,13 +6,13 @@
 #include <glm/geometric.hpp>
 
 #include "common/render.h"
-#include "pipeline/target_texture.h"
-#include "pipeline/workers.h"
-#include "shading/normals.h"
-#include "shading/object_transform.h"
-#include "shading/tangent_space.h"
-#include "texture/comparison_sampler.h"
-#include "texture/image.h"
+#include "relief/pipeline/target_texture.h"
+#include "relief/pipeline/workers.h"
+#include "relief/shading/normals.h"
+#include "relief/shading/object_transform.h"
+#include "relief/shading/tangent_space.h"
+#include "relief/texture/comparison_sampler.h"
+#include "relief/texture/image.h"
 
 namespace relief::samples {
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "common/camera.h"
-#include "pipeline/frame.h"
-#include "scene/scene_file.h"
-#include "shading/environment.h"
-#include "shading/lights.h"
+#include "relief/pipeline/frame.h"
+#include "relief/scene/scene_file.h"
+#include "relief/shading/environment.h"
+#include "relief/shading/lights.h"
 
 namespace relief::samples {
 

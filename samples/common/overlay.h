@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "common/ramp.h"
-#include "mesh/text.h"
-#include "relief.h"
+#include "relief/mesh/text.h"
+#include "relief/relief.h"
 
 namespace relief::samples {
 

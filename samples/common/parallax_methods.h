@@ -1,7 +1,7 @@
 // The methods of 5.11 to 5.14 by name, for stage 5.16, which compares them with geometry.
 #pragma once
 
-#include "shading/parallax.h"
+#include "relief/shading/parallax.h"
 
 namespace relief::samples {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "check/hash.h"
 #include "common/stage.h"
 #include "common/tangent_space_visualizer.h"
+#include "relief/check/hash.h"
 
 namespace relief::samples {
 

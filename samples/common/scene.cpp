@@ -8,10 +8,10 @@
 #include "common/import_options.h"
 #include "common/lit_scene.h"
 #include "common/tangent_space_visualizer.h"
-#include "mesh/spherical_uv.h"
-#include "mesh/tangents.h"
-#include "pipeline/workers.h"
-#include "scene/gltf.h"
+#include "relief/mesh/spherical_uv.h"
+#include "relief/mesh/tangents.h"
+#include "relief/pipeline/workers.h"
+#include "relief/scene/gltf.h"
 
 namespace relief::samples {
 

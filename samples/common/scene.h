@@ -15,8 +15,8 @@
 #include "common/input_files.h"
 #include "common/overlay.h"
 #include "common/uniforms.h"
-#include "shading/normals.h"
-#include "shading/tangent_space.h"
+#include "relief/shading/normals.h"
+#include "relief/shading/tangent_space.h"
 
 namespace relief::samples {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/assets.h"
-#include "relief.h"
+#include "relief/relief.h"
 
 namespace relief::samples {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "error.h"
+#include "relief/error.h"
 
 namespace relief::samples {
 

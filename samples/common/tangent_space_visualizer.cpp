@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "mesh/tangents.h"
+#include "relief/mesh/tangents.h"
 
 namespace relief::samples {
 

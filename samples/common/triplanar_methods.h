@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "shading/normals.h"
+#include "relief/shading/normals.h"
 
 namespace relief::samples::triplanar {
 

@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "common/input_files.h"
-#include "relief.h"
-#include "shading/lights.h"
-#include "shading/object_transform.h"
-#include "texture/import.h"
+#include "relief/relief.h"
+#include "relief/shading/lights.h"
+#include "relief/shading/object_transform.h"
+#include "relief/texture/import.h"
 
 namespace relief::samples {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "pipeline/program.h"
+#include "relief/pipeline/program.h"
 
 namespace relief::inline RELIEF_WIDTH::detail {
 

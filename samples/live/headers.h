@@ -21,19 +21,19 @@
 
 // What calls programs runs once for each draw: clang is not to optimise it, which would take as long as some programs.
 // Whatever these two headers include stands above them.
-#include "pipeline/draw.h"
+#include "relief/pipeline/draw.h"
 #pragma clang optimize off
-#include "pipeline/frame.h"
+#include "relief/pipeline/frame.h"
 #pragma clang optimize on
 
-#include "relief.h"
-#include "shading/cotangent_frame.h"
-#include "shading/lights.h"
-#include "shading/normals.h"
-#include "shading/object_transform.h"
-#include "shading/tangent_space.h"
-#include "shading/triplanar.h"
-#include "texture/import.h"
+#include "relief/relief.h"
+#include "relief/shading/cotangent_frame.h"
+#include "relief/shading/lights.h"
+#include "relief/shading/normals.h"
+#include "relief/shading/object_transform.h"
+#include "relief/shading/tangent_space.h"
+#include "relief/shading/triplanar.h"
+#include "relief/texture/import.h"
 
 #include "common/camera.h"
 #include "common/overlay.h"

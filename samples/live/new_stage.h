@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "error.h"
+#include "relief/error.h"
 
 namespace relief::samples::live {
 

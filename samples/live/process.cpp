@@ -14,11 +14,11 @@
 #include <ucontext.h>
 #include <unistd.h>
 
-#include "check/hash.h"
 #include "common/baked_sphere.h"
 #include "common/inside.h"
 #include "common/render.h"
 #include "live/load.h"
+#include "relief/check/hash.h"
 
 namespace relief::samples::live {
 

@@ -18,7 +18,7 @@
 
 #include "common/stage.h"
 #include "live/toolchain.h"
-#include "pipeline/statistics.h"
+#include "relief/pipeline/statistics.h"
 
 namespace relief::samples::live {
 

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "file.h"
+#include "relief/file.h"
 
 namespace relief::samples::live {
 

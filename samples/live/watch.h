@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "error.h"
+#include "relief/error.h"
 
 namespace relief::samples::live {
 

@@ -3,11 +3,11 @@
 #include <charconv>
 #include <cstdio>
 
-#include "file.h"
 #include "picture_command.h"
 #include "prepare.h"
+#include "relief/file.h"
+#include "relief/trace/variable.h"
 #include "trace/tell.h"
-#include "trace/variable.h"
 
 namespace relief::samples {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "error.h"
 #include "prepare.h"
+#include "relief/error.h"
 
 namespace relief::samples {
 

@@ -2,6 +2,6 @@
 // before all of them.
 #pragma once
 
-#include "trace/see.h"
+#include "relief/trace/see.h"
 
 #include "live/headers.h"

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "texture/color_space.h"
-#include "texture/image.h"
+#include "relief/texture/color_space.h"
+#include "relief/texture/image.h"
 #include "trace/tell.h"
 #include "trace/words.h"
 

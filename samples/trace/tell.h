@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "trace/pixel_trace.h"
+#include "relief/trace/pixel_trace.h"
+#include "relief/trace/vertex_trace.h"
 #include "trace/traced_stage.h"
-#include "trace/vertex_trace.h"
 
 namespace relief::samples::trace {
 

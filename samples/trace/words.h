@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "trace/pixel_trace.h"
+#include "relief/trace/pixel_trace.h"
 
 namespace relief::samples::trace {
 

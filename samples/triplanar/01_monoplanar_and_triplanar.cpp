@@ -2,7 +2,7 @@
 // New: colours by the position in the world, from above (left) and from three sides (right).
 // Was: colours by the uv of the mesh (3.05).
 #include "common/stage.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

@@ -2,7 +2,7 @@
 // New: bumps from three sides. Wrong: turned to the world by the tangents of the mesh.
 // Was: colours only, and the mesh's normals (4.01).
 #include "common/stage.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

@@ -2,7 +2,7 @@
 // New: the axes of the world are the tangents, so components change places and nothing is multiplied.
 // Was: tangents of the mesh (4.02).
 #include "common/stage.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

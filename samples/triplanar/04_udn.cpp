@@ -2,7 +2,7 @@
 // New: the map's slopes are added to the surface's normal, so round surfaces stay round.
 // Was: the map alone, by planes (4.03).
 #include "common/stage.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

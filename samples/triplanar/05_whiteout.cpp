@@ -2,7 +2,7 @@
 // New: the map's z is kept, multiplied by the surface's.
 // Was: the surface's z alone (4.04).
 #include "common/stage.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

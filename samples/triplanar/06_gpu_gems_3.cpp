@@ -3,7 +3,7 @@
 // Was: whiteout (4.05).
 #include "common/stage.h"
 #include "common/triplanar_methods.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

@@ -2,7 +2,7 @@
 // New: the map's normal is turned by the rotation that takes the plane's axis to the surface's normal.
 // Was: slopes added (4.06).
 #include "common/stage.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

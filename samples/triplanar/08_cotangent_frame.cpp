@@ -2,8 +2,8 @@
 // New: a tangent space for each plane, from how position and uv change from pixel to pixel.
 // Was: no tangent space at all (4.07).
 #include "common/stage.h"
-#include "shading/cotangent_frame.h"
-#include "shading/triplanar.h"
+#include "relief/shading/cotangent_frame.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

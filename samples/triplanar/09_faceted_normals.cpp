@@ -2,8 +2,8 @@
 // New: the normal of the triangle itself, from how the position changes from pixel to pixel.
 // Was: the interpolated normal, and frames about it (4.08).
 #include "common/stage.h"
-#include "hlsl/derivatives.h"
-#include "shading/triplanar.h"
+#include "relief/hlsl/derivatives.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

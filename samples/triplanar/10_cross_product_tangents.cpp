@@ -2,7 +2,7 @@
 // New: for each plane tangent and binormal from cross products of the normal and an axis.
 // Was: from differences between pixels (4.08).
 #include "common/stage.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

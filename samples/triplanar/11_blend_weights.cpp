@@ -2,7 +2,7 @@
 // New: seven ways to share a surface out among the three planes; the weights as colours (above), and bricks (below).
 // Was: one of them, 0.2 subtracted (4.10).
 #include "common/stage.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

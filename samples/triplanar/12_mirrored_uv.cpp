@@ -2,7 +2,7 @@
 // New: the planes' pictures shifted against each other, and flipped on the sides that would show them mirrored.
 // Was: the same picture on both sides of a plane (4.03 to 4.11).
 #include "common/stage.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

@@ -4,8 +4,8 @@
 #include "common/false_color.h"
 #include "common/stage.h"
 #include "common/triplanar_methods.h"
-#include "shading/cotangent_frame.h"
-#include "shading/triplanar.h"
+#include "relief/shading/cotangent_frame.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::samples {
 namespace {

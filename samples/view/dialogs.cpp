@@ -7,7 +7,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "path.h"
+#include "relief/path.h"
 #include "view/interface.h"
 #include "view/style.h"
 

@@ -9,8 +9,8 @@
 
 #include <imgui.h>
 
-#include "path.h"
 #include "prepare.h"
+#include "relief/path.h"
 #include "view/interface.h"
 #include "view/stage_list.h"
 #include "view/style.h"

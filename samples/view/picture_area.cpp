@@ -8,7 +8,7 @@
 
 #include <imgui.h>
 
-#include "path.h"
+#include "relief/path.h"
 #include "view/interface.h"
 #include "view/orbit.h"
 #include "view/style.h"

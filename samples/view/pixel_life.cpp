@@ -19,7 +19,8 @@ Expected<void> PixelLife::tell(const live::StageSource& source, const live::Look
     std::error_code ignored;
     page = (std::filesystem::temp_directory_path(ignored) / ("relief-pixel-" + std::to_string(::getpid()) + ".html"))
                .string();
-    const std::string words = "--pixel " + std::to_string(x) + "," + std::to_string(y) + " --html " + samples::quoted(page);
+    const std::string words =
+        "--pixel " + std::to_string(x) + "," + std::to_string(y) + " --html " + samples::quoted(page);
     const std::string command = traceCommand(live::programPath(), source, words, look);
     printed.clear();
     // A shell that becomes the program: what ends one ends the other.

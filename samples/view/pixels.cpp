@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <span>
 
-#include "check/compare.h"
-#include "texture/color_space.h"
-#include "texture/image.h"
+#include "relief/check/compare.h"
+#include "relief/texture/color_space.h"
+#include "relief/texture/image.h"
 
 namespace relief::samples {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "path.h"
+#include "relief/path.h"
 #include "view/orbit.h"
 
 namespace relief::samples {

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cstdio>
 
-#include "prepare.h"
 #include "picture_command.h"
+#include "prepare.h"
 #include "view/orbit.h"
 
 namespace relief::samples {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "error.h"
+#include "relief/error.h"
 
 struct ImFont;
 struct SDL_Renderer;

@@ -13,8 +13,8 @@
 
 #include "command_line.h"
 #include "feature_scenes.h"
-#include "pipeline/instruments.h"
-#include "pipeline/workers.h"
+#include "relief/pipeline/instruments.h"
+#include "relief/pipeline/workers.h"
 #include "scenes.h"
 
 namespace relief::samples {

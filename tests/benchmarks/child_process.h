@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "error.h"
+#include "relief/error.h"
 
 namespace relief::benchmarks {
 

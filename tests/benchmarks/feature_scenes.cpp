@@ -6,11 +6,11 @@
 #include <glm/matrix.hpp>
 
 #include "common/screen_quad.h"
-#include "relief.h"
-#include "shading/camera.h"
-#include "shading/normals.h"
-#include "shading/object_transform.h"
-#include "shading/tangent_space.h"
+#include "relief/relief.h"
+#include "relief/shading/camera.h"
+#include "relief/shading/normals.h"
+#include "relief/shading/object_transform.h"
+#include "relief/shading/tangent_space.h"
 
 namespace relief::benchmarks {
 

@@ -3,7 +3,7 @@
 #include <glm/matrix.hpp>
 
 #include "feature_scenes.h"
-#include "shading/object_transform.h"
+#include "relief/shading/object_transform.h"
 
 namespace relief::benchmarks {
 

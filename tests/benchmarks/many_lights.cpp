@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "common/camera.h"
-#include "relief.h"
-#include "shading/lights.h"
-#include "shading/object_transform.h"
+#include "relief/relief.h"
+#include "relief/shading/lights.h"
+#include "relief/shading/object_transform.h"
 
 namespace relief::benchmarks {
 

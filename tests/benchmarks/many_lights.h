@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "pipeline/frame.h"
+#include "relief/pipeline/frame.h"
 
 namespace relief::benchmarks {
 

@@ -14,11 +14,11 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "hlsl/types.h"
-#include "mesh/mesh.h"
-#include "pipeline/render_state.h"
-#include "texture/cube_map.h"
-#include "texture/sampler.h"
+#include "relief/hlsl/types.h"
+#include "relief/mesh/mesh.h"
+#include "relief/pipeline/render_state.h"
+#include "relief/texture/cube_map.h"
+#include "relief/texture/sampler.h"
 
 namespace relief::benchmarks {
 

@@ -5,7 +5,7 @@
 #include <EGL/eglext.h>
 #include <GL/glcorearb.h>
 
-#include "error.h"
+#include "relief/error.h"
 
 namespace relief::benchmarks {
 

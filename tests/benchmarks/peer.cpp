@@ -16,7 +16,7 @@
 #include "cost.h"
 #include "feature_scenes.h"
 #include "first_frame.h"
-#include "pipeline/workers.h"
+#include "relief/pipeline/workers.h"
 #include "twins.h"
 
 namespace relief::samples {

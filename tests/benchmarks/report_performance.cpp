@@ -5,7 +5,7 @@
 
 #include "command_line.h"
 #include "cost.h"
-#include "pipeline/workers.h"
+#include "relief/pipeline/workers.h"
 #include "report.h"
 #include "scalings.h"
 

@@ -7,7 +7,7 @@
 
 #include "child_process.h"
 #include "many_lights.h"
-#include "pipeline/workers.h"
+#include "relief/pipeline/workers.h"
 #include "scenes.h"
 
 namespace relief::benchmarks {

@@ -2,8 +2,8 @@
 
 #include "common/camera.h"
 #include "common/render.h"
-#include "relief.h"
-#include "shading/object_transform.h"
+#include "relief/relief.h"
+#include "relief/shading/object_transform.h"
 
 namespace relief::benchmarks {
 

@@ -10,9 +10,9 @@
 #include <glm/mat4x4.hpp>
 
 #include "common/render.h"
-#include "pipeline/frame.h"
-#include "texture/cube_map.h"
-#include "texture/texture.h"
+#include "relief/pipeline/frame.h"
+#include "relief/texture/cube_map.h"
+#include "relief/texture/texture.h"
 
 namespace relief::benchmarks {
 

@@ -1,7 +1,7 @@
 #include "twins.h"
 
 #include "feature_twins.h"
-#include "shading/object_transform.h"
+#include "relief/shading/object_transform.h"
 #include "stage_twins.h"
 
 namespace relief::benchmarks {

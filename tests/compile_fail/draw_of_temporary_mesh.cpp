@@ -1,6 +1,6 @@
 // Mistake: a mesh that is gone when the frame runs.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // Mistake: the fragment program gives what only goes to it.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // Mistake: the fragment program takes another struct than the one that the vertex program returns.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

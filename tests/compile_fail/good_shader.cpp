@@ -1,6 +1,6 @@
 // The control of this folder: a right shader compiles. Every other file here is this one with a single mistake.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // Mistake: an array among the Interpolators.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // Mistake: more planes to clip at than there can be.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // Mistake: a field of Interpolators is a plain float, which says nothing about what it means.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

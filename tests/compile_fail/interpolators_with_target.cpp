@@ -1,6 +1,6 @@
 // Mistake: a colour of the fragment program among the Interpolators.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // Mistake: Interpolators has more fields than the engine can list.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

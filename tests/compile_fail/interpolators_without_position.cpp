@@ -1,6 +1,6 @@
 // Mistake: Interpolators has no SV_POSITION, so the triangle has no place on the screen.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // Mistake: a field of VertexData is a plain vector: which stream of the mesh is it?
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // Mistake: a generic lambda: it does not say which VertexData it takes.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

@@ -1,6 +1,6 @@
 // Mistake: the vertex program may change itself: its operator() is not const.
-#include "hlsl/intrinsics.h"
-#include "pipeline/frame.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/frame.h"
 
 using namespace relief;
 

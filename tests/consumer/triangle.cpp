@@ -1,7 +1,7 @@
 // Somebody's program, which is built with flags that the library was not built with.
 #include <cstdio>
 
-#include "relief.h"
+#include <relief/relief.h>
 
 using namespace relief;
 

@@ -2,8 +2,8 @@
 #include <numbers>
 
 #include "experiments.h"
-#include "hlsl/intrinsics.h"
 #include "lane_kernel.h"
+#include "relief/hlsl/intrinsics.h"
 
 namespace relief::experiments {
 

@@ -2,7 +2,7 @@
 #include "experiments.h"
 #include "height_wave.h"
 #include "lane_kernel.h"
-#include "texture/sampler.h"
+#include "relief/texture/sampler.h"
 
 namespace relief::experiments {
 

@@ -2,8 +2,8 @@
 #include "experiments.h"
 #include "height_wave.h"
 #include "lane_kernel.h"
-#include "texture/normal_map.h"
-#include "texture/sampler.h"
+#include "relief/texture/normal_map.h"
+#include "relief/texture/sampler.h"
 
 namespace relief::experiments {
 

@@ -1,7 +1,7 @@
 // E-05: what the normalize() after bumping is for, and how exact it has to be.
 #include "experiments.h"
-#include "hlsl/intrinsics.h"
 #include "lane_kernel.h"
+#include "relief/hlsl/intrinsics.h"
 #include "rsqrt_estimate.h"
 
 namespace relief::experiments {

@@ -4,7 +4,7 @@
 
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "shading/normals.h"
+#include "relief/shading/normals.h"
 
 namespace relief::experiments {
 

@@ -4,7 +4,7 @@
 #include "common/triplanar_methods.h"
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::experiments {
 

@@ -3,7 +3,7 @@
 
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "shading/triplanar.h"
+#include "relief/shading/triplanar.h"
 
 namespace relief::experiments {
 

@@ -3,7 +3,7 @@
 
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "shading/tangent_space.h"
+#include "relief/shading/tangent_space.h"
 
 namespace relief::experiments {
 

@@ -2,9 +2,9 @@
 #include <numbers>
 
 #include "experiments.h"
-#include "hlsl/derivatives.h"
 #include "lane_kernel.h"
-#include "texture/sampler.h"
+#include "relief/hlsl/derivatives.h"
+#include "relief/texture/sampler.h"
 
 namespace relief::experiments {
 

@@ -3,7 +3,7 @@
 
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "texture/level_of_detail.h"
+#include "relief/texture/level_of_detail.h"
 
 namespace relief::experiments {
 

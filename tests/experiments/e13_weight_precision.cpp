@@ -1,7 +1,7 @@
 // E-13: how many bits the weights of a bilinear fetch need.
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "texture/filter.h"
+#include "relief/texture/filter.h"
 
 namespace relief::experiments {
 

@@ -1,11 +1,11 @@
 // E-14: how a coarser mip level is made of colours and of normals.
 #include "exact_srgb.h"
 #include "experiments.h"
-#include "hlsl/intrinsics.h"
 #include "lane_kernel.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/texture/color_space.h"
+#include "relief/texture/normal_map.h"
 #include "sine_normals.h"
-#include "texture/color_space.h"
-#include "texture/normal_map.h"
 
 namespace relief::experiments {
 

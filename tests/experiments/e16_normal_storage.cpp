@@ -8,7 +8,7 @@
 #include "experiments.h"
 #include "half.h"
 #include "lane_kernel.h"
-#include "shading/normals.h"
+#include "relief/shading/normals.h"
 
 namespace relief::experiments {
 

@@ -3,7 +3,7 @@
 
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "pipeline/interpolate.h"
+#include "relief/pipeline/interpolate.h"
 
 namespace relief::experiments {
 

@@ -4,7 +4,7 @@
 
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "pipeline/interpolate.h"
+#include "relief/pipeline/interpolate.h"
 
 namespace relief::experiments {
 

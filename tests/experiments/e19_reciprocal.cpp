@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "experiments.h"
-#include "hlsl/intrinsics.h"
 #include "lane_kernel.h"
+#include "relief/hlsl/intrinsics.h"
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif

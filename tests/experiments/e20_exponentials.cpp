@@ -4,7 +4,7 @@
 
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "lanes/math.h"
+#include "relief/lanes/math.h"
 
 namespace relief::experiments {
 

@@ -2,8 +2,8 @@
 #include "exact_srgb.h"
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "lanes/math.h"
-#include "texture/color_space.h"
+#include "relief/lanes/math.h"
+#include "relief/texture/color_space.h"
 
 namespace relief::experiments {
 

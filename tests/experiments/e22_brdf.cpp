@@ -3,7 +3,7 @@
 
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "shading/lighting.h"
+#include "relief/shading/lighting.h"
 
 namespace relief::experiments {
 

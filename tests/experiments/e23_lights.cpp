@@ -3,8 +3,8 @@
 #include <random>
 
 #include "experiments.h"
-#include "pipeline/output_merger.h"
-#include "shading/lights.h"
+#include "relief/pipeline/output_merger.h"
+#include "relief/shading/lights.h"
 #include "small_frame.h"
 
 namespace relief::experiments {

@@ -4,7 +4,7 @@
 
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "pipeline/output_merger.h"
+#include "relief/pipeline/output_merger.h"
 
 namespace relief::experiments {
 

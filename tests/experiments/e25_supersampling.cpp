@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "experiments.h"
-#include "hlsl/intrinsics.h"
+#include "relief/hlsl/intrinsics.h"
 #include "small_frame.h"
 
 namespace relief::experiments {

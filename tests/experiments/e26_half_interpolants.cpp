@@ -4,8 +4,8 @@
 
 #include "experiments.h"
 #include "half.h"
-#include "hlsl/intrinsics.h"
 #include "lane_kernel.h"
+#include "relief/hlsl/intrinsics.h"
 
 namespace relief::experiments {
 

@@ -3,8 +3,8 @@
 
 #include "experiments.h"
 #include "lane_kernel.h"
-#include "shading/normals.h"
-#include "texture/sampler.h"
+#include "relief/shading/normals.h"
+#include "relief/texture/sampler.h"
 
 namespace relief::experiments {
 

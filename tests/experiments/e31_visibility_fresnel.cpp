@@ -1,8 +1,8 @@
 // E-31: the two factors of a microfacet highlight that are usually approximated: visibility and Fresnel's reflectance.
 #include "experiments.h"
-#include "hlsl/intrinsics.h"
 #include "lane_kernel.h"
-#include "shading/lighting.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/shading/lighting.h"
 
 namespace relief::experiments {
 

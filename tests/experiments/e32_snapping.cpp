@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "experiments.h"
-#include "hlsl/intrinsics.h"
 #include "lane_kernel.h"
-#include "pipeline/viewport_transform.h"
+#include "relief/hlsl/intrinsics.h"
+#include "relief/pipeline/viewport_transform.h"
 
 namespace relief::experiments {
 

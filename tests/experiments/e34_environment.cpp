@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "experiments.h"
-#include "shading/environment.h"
+#include "relief/shading/environment.h"
 
 namespace relief::experiments {
 

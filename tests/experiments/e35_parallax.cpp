@@ -2,8 +2,8 @@
 #include "common/render.h"
 #include "common/screen_quad.h"
 #include "experiments.h"
-#include "pipeline/target_texture.h"
-#include "shading/parallax.h"
+#include "relief/pipeline/target_texture.h"
+#include "relief/shading/parallax.h"
 #include "small_frame.h"
 
 namespace relief::experiments {

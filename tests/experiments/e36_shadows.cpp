@@ -1,9 +1,9 @@
 // E-36: filters and biases of shadow maps against rays.
 #include "common/render.h"
 #include "experiments.h"
-#include "mesh/ray_tree.h"
-#include "pipeline/target_texture.h"
-#include "shading/shadows.h"
+#include "relief/mesh/ray_tree.h"
+#include "relief/pipeline/target_texture.h"
+#include "relief/shading/shadows.h"
 #include "small_frame.h"
 
 namespace relief::experiments {

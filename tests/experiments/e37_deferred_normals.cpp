@@ -3,8 +3,8 @@
 #include "common/screen_quad.h"
 #include "exact_srgb.h"
 #include "experiments.h"
-#include "pipeline/target_texture.h"
-#include "shading/normal_encoding.h"
+#include "relief/pipeline/target_texture.h"
+#include "relief/shading/normal_encoding.h"
 #include "small_frame.h"
 
 namespace relief::experiments {

@@ -2,7 +2,7 @@
 // In integers, because not every instruction set that the lanes know converts halves.
 #pragma once
 
-#include "lanes/float.h"
+#include "relief/lanes/float.h"
 
 namespace relief::experiments {
 

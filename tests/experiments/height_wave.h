@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "texture/texture.h"
+#include "relief/texture/texture.h"
 
 namespace relief::experiments {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "experiment.h"
-#include "hlsl/types.h"
+#include "relief/hlsl/types.h"
 
 namespace relief::experiments {
 

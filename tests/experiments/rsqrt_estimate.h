@@ -2,7 +2,7 @@
 // draws may use it. Where a processor has none, a number of the same quality stands in, rounded to 11 bits.
 #pragma once
 
-#include "lanes/math.h"
+#include "relief/lanes/math.h"
 #if defined(__SSE__)
 #include <immintrin.h>
 #endif

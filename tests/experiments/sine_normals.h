@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "texture/mip_chain.h"
+#include "relief/texture/mip_chain.h"
 
 namespace relief::experiments {
 

@@ -5,7 +5,7 @@
 
 #include "common/render.h"
 #include "experiment.h"
-#include "pipeline/frame.h"
+#include "relief/pipeline/frame.h"
 
 namespace relief::experiments {
 

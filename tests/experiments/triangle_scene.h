@@ -6,8 +6,8 @@
 #include <array>
 #include <random>
 
-#include "hlsl/derivatives.h"
-#include "hlsl/intrinsics.h"
+#include "relief/hlsl/derivatives.h"
+#include "relief/hlsl/intrinsics.h"
 #include "small_frame.h"
 
 namespace relief::experiments {

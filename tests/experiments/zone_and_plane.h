@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "texture/sampler.h"
+#include "relief/texture/sampler.h"
 
 namespace relief::experiments {
 

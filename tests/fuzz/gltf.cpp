@@ -1,6 +1,6 @@
 // Any bytes as a glTF file: an error of one line, or a scene whose meshes are valid and whose numbers name what is
 // there.
-#include "scene/gltf.h"
+#include "relief/scene/gltf.h"
 
 #include <cstdlib>
 

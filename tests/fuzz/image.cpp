@@ -1,5 +1,5 @@
 // Any bytes as an image file: an error, or as many pixels as the picture's size says.
-#include "texture/image.h"
+#include "relief/texture/image.h"
 
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
 // Any bytes as an OBJ file: an error of one line, or a valid mesh.
-#include "mesh/obj.h"
+#include "relief/mesh/obj.h"
 
 #include <cstdlib>
 

@@ -12,7 +12,7 @@
 
 #include "gltf_file.h"
 #include "live_command.h"
-#include "texture/image.h"
+#include "relief/texture/image.h"
 
 namespace {
 

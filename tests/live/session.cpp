@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-#include "check/hash.h"
 #include "live/new_stage.h"
 #include "live/session.h"
+#include "relief/check/hash.h"
 #include "temporary_folder.h"
 
 namespace {

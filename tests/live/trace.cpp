@@ -11,13 +11,13 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "check/hash.h"
 #include "common/render.h"
 #include "live/load.h"
 #include "live/watch.h"
+#include "relief/check/hash.h"
+#include "relief/trace/pixel_trace.h"
+#include "relief/trace/variable.h"
 #include "trace/instrument.h"
-#include "trace/pixel_trace.h"
-#include "trace/variable.h"
 
 #include "live_command.h"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "golden_stage.h"
-#include "leave_out.h"
+#include "relief/leave_out.h"
 
 namespace {
 

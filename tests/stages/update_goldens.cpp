@@ -1,8 +1,8 @@
 // Rewrites every golden picture and the file of hashes. A commit that changes one says why.
 #include <cstdio>
 
-#include "file.h"
 #include "golden_stage.h"
+#include "relief/file.h"
 
 int main()
 {

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "common/stage.h"
-#include "file.h"
 #include "page_diff.h"
+#include "relief/file.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include "hands.h"
 #include "live/new_stage.h"
-#include "prepare.h"
 #include "picture_command.h"
+#include "prepare.h"
 #include "view/orbit.h"
 
 using namespace relief;

@@ -1,0 +1,220 @@
+// LaneVector<T, n>: two, three or four values of lanes; T is Float, Int or Mask. float3 is LaneVector<Float, 3>, see
+// types.h.
+//
+// An operator is one function of two vectors. Whatever else may stand beside a vector becomes one first: a number or a
+// single value in every component, a plain vector of GLM in every lane, and a field of a shader's struct. Operators are
+// friends defined in a class: found for these types alone, and open to conversions, which templates are not.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "relief/hlsl/swizzles.h"
+#include "relief/hlsl/vector_intrinsics.h"
+#include "relief/lanes/float.h"
+
+namespace relief::inline RELIEF_WIDTH {
+
+namespace detail {
+
+// Component by component. The three sizes are written out, because compilers read that faster than loops or helpers.
+#define RELIEF_OPERATOR(R, op)                                                          \
+    friend R operator op(const V& a, const V& b)                                        \
+    {                                                                                   \
+        if constexpr (n == 2) return R(a.x op b.x, a.y op b.y);                         \
+        if constexpr (n == 3) return R(a.x op b.x, a.y op b.y, a.z op b.z);             \
+        if constexpr (n == 4) return R(a.x op b.x, a.y op b.y, a.z op b.z, a.w op b.w); \
+    }
+#define RELIEF_UNARY_OPERATOR(op)                                       \
+    friend V operator op(const V& a)                                    \
+    {                                                                   \
+        if constexpr (n == 2) return V(op a.x, op a.y);                 \
+        if constexpr (n == 3) return V(op a.x, op a.y, op a.z);         \
+        if constexpr (n == 4) return V(op a.x, op a.y, op a.z, op a.w); \
+    }
+
+// Of numbers: Float has no & | ^, and Int no division.
+template <class T, int n>
+struct VectorOperators
+{
+    using V = LaneVector<T, n>;
+    using B = LaneVector<Mask, n>;
+
+    RELIEF_OPERATOR(V, +)
+    RELIEF_OPERATOR(V, -)
+    RELIEF_OPERATOR(V, *)
+    RELIEF_OPERATOR(V, /)
+    RELIEF_OPERATOR(V, &)
+    RELIEF_OPERATOR(V, |)
+    RELIEF_OPERATOR(V, ^)
+    RELIEF_UNARY_OPERATOR(-)
+    friend V operator+(const V& a) { return a; }
+
+    RELIEF_OPERATOR(B, <)
+    RELIEF_OPERATOR(B, <=)
+    RELIEF_OPERATOR(B, >)
+    RELIEF_OPERATOR(B, >=)
+    RELIEF_OPERATOR(B, ==)
+    RELIEF_OPERATOR(B, !=)
+};
+
+template <int n>
+struct VectorOperators<Mask, n>
+{
+    using V = LaneVector<Mask, n>;
+
+    RELIEF_OPERATOR(V, &)
+    RELIEF_OPERATOR(V, |)
+    RELIEF_UNARY_OPERATOR(!)
+};
+
+#undef RELIEF_OPERATOR
+#undef RELIEF_UNARY_OPERATOR
+
+// The plain numbers that become a T by themselves.
+template <class N, class T>
+concept NumberFor = Number<N> &&
+    (std::is_same_v<T, Float> || (std::is_same_v<T, Int> && WholeNumber<N>) || std::is_same_v<N, bool>);
+
+// A vector of `n`, or a field that is one, to be joined with others: no number, since float3(x, 1) is a mistake.
+template <class V, class T, int n>
+concept PartOf = std::is_base_of_v<LaneVector<T, n>, V>;
+
+}  // namespace detail
+
+template <class T, int n>
+struct LaneVector : detail::Components<T, n>, detail::VectorOperators<T, n>, detail::VectorIntrinsics<T, n>
+{
+    using Base = detail::Components<T, n>;
+
+    LaneVector() = default;
+    LaneVector(T first, T second) requires(n == 2) : Base(first, second) {}
+    LaneVector(T first, T second, T third) requires(n == 3) : Base(first, second, third) {}
+    LaneVector(T first, T second, T third, T fourth) requires(n == 4) : Base(first, second, third, fourth) {}
+
+    // The same in every component; a plain vector in every lane.
+    LaneVector(T all) requires(n == 2) : Base(all, all) {}
+    LaneVector(T all) requires(n == 3) : Base(all, all, all) {}
+    LaneVector(T all) requires(n == 4) : Base(all, all, all, all) {}
+    template <detail::NumberFor<T> N>
+    LaneVector(N all) : LaneVector(T(all))
+    {
+    }
+    LaneVector(const glm::vec2& v) requires(n == 2 && std::is_same_v<T, Float>) : Base(v.x, v.y) {}
+    LaneVector(const glm::vec3& v) requires(n == 3 && std::is_same_v<T, Float>) : Base(v.x, v.y, v.z) {}
+    LaneVector(const glm::vec4& v) requires(n == 4 && std::is_same_v<T, Float>) : Base(v.x, v.y, v.z, v.w) {}
+
+    // Of parts.
+    template <detail::PartOf<T, 2> Two>
+    LaneVector(const Two& v, T third) requires(n == 3) : Base(v.x, v.y, third)
+    {
+    }
+    template <detail::PartOf<T, 2> Two>
+    LaneVector(T first, const Two& v) requires(n == 3) : Base(first, v.x, v.y)
+    {
+    }
+    template <detail::PartOf<T, 2> Two>
+    LaneVector(const Two& v, T third, T fourth) requires(n == 4) : Base(v.x, v.y, third, fourth)
+    {
+    }
+    template <detail::PartOf<T, 2> Two>
+    LaneVector(T first, const Two& v, T fourth) requires(n == 4) : Base(first, v.x, v.y, fourth)
+    {
+    }
+    template <detail::PartOf<T, 2> Two>
+    LaneVector(T first, T second, const Two& v) requires(n == 4) : Base(first, second, v.x, v.y)
+    {
+    }
+    template <detail::PartOf<T, 2> Two, detail::PartOf<T, 2> OtherTwo>
+    LaneVector(const Two& v, const OtherTwo& u) requires(n == 4) : Base(v.x, v.y, u.x, u.y)
+    {
+    }
+    template <detail::PartOf<T, 3> Three>
+    LaneVector(const Three& v, T fourth) requires(n == 4) : Base(v.x, v.y, v.z, fourth)
+    {
+    }
+    template <detail::PartOf<T, 3> Three>
+    LaneVector(T first, const Three& v) requires(n == 4) : Base(first, v.x, v.y, v.z)
+    {
+    }
+
+    // HLSL's cast to other components, (int3)v: toward zero.
+    template <class U>
+    explicit LaneVector(const LaneVector<U, n>& v) requires(!std::is_same_v<T, U>)
+        : LaneVector(detail::each<LaneVector>([](U u) { return detail::castTo<T>(u); }, v))
+    {
+    }
+
+    // A longer vector is cut off, as in HLSL.
+    template <int more>
+    LaneVector(const LaneVector<T, more>& v) requires(n == 2 && more > 2) : Base(v.x, v.y)
+    {
+    }
+    template <int more>
+    LaneVector(const LaneVector<T, more>& v) requires(n == 3 && more > 3) : Base(v.x, v.y, v.z)
+    {
+    }
+
+    T& operator[](int i)
+    {
+        if constexpr (n == 2) return i == 0 ? this->x : this->y;
+        if constexpr (n == 3) return i == 0 ? this->x : i == 1 ? this->y : this->z;
+        if constexpr (n == 4) return i == 0 ? this->x : i == 1 ? this->y : i == 2 ? this->z : this->w;
+    }
+    const T& operator[](int i) const { return const_cast<LaneVector&>(*this)[i]; }
+
+    LaneVector& operator+=(const LaneVector& v) { return *this = *this + v; }
+    LaneVector& operator-=(const LaneVector& v) { return *this = *this - v; }
+    LaneVector& operator*=(const LaneVector& v) { return *this = *this * v; }
+    LaneVector& operator/=(const LaneVector& v) { return *this = *this / v; }
+    LaneVector& operator&=(const LaneVector& v) { return *this = *this & v; }
+    LaneVector& operator|=(const LaneVector& v) { return *this = *this | v; }
+};
+
+// A plain vector of GLM beside a single value: neither of the two is a vector of lanes yet.
+template <int n>
+LaneVector<Float, n> operator+(const glm::vec<n, float>& a, Float b)
+{
+    return LaneVector<Float, n>(a) + b;
+}
+template <int n>
+LaneVector<Float, n> operator+(Float a, const glm::vec<n, float>& b)
+{
+    return a + LaneVector<Float, n>(b);
+}
+template <int n>
+LaneVector<Float, n> operator-(const glm::vec<n, float>& a, Float b)
+{
+    return LaneVector<Float, n>(a) - b;
+}
+template <int n>
+LaneVector<Float, n> operator-(Float a, const glm::vec<n, float>& b)
+{
+    return a - LaneVector<Float, n>(b);
+}
+template <int n>
+LaneVector<Float, n> operator*(const glm::vec<n, float>& a, Float b)
+{
+    return LaneVector<Float, n>(a) * b;
+}
+template <int n>
+LaneVector<Float, n> operator*(Float a, const glm::vec<n, float>& b)
+{
+    return a * LaneVector<Float, n>(b);
+}
+template <int n>
+LaneVector<Float, n> operator/(const glm::vec<n, float>& a, Float b)
+{
+    return LaneVector<Float, n>(a) / b;
+}
+template <int n>
+LaneVector<Float, n> operator/(Float a, const glm::vec<n, float>& b)
+{
+    return a / LaneVector<Float, n>(b);
+}
+
+}  // namespace relief::inline RELIEF_WIDTH

@@ -1,0 +1,448 @@
+// From covered blocks to pixels: the early depth test, the fragment program, the output merger. Blocks go through these
+// steps in small groups, so that a program is called once for several of them; a group's data stay in the first-level
+// cache. All depths and stencils of a group are tested and written before its first colour is merged: they do not
+// depend on colour, and both keep the order of submission, so every pixel is what it would be one block at a time. Only
+// a program that discards, or gives depth or coverage, decides about them, and alpha to coverage does: their blocks go
+// one by one.
+#include "relief/pipeline/draw.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "relief/leave_out.h"
+#include "relief/pipeline/output_merger.h"
+
+namespace relief::inline RELIEF_WIDTH {
+
+namespace {
+
+constexpr std::size_t kBlocksPerGroup = 16;
+
+// Where a run has so many blocks a triangle it pays to look at the bounds of the whole tile, which are often in front
+// of all that is drawn over it later.
+constexpr int kBlocksOfLargeTriangle = 64;
+
+// Of one run of blocks.
+struct Counts
+{
+    unsigned blocks = 0, quadPixels = 0, pixels = 0, covered = 0, invalid = 0;
+};
+
+// What of a draw's state a block asks for: any, with one sample a pixel or several, or the usual one, of which the
+// compiler knows most.
+template <bool several>
+struct AnyState
+{
+    static constexpr bool severalSamples = several, hasOneTarget = false;
+    Compare depthTest;
+    bool usesDepth, depthWrite, usesStencil;
+    bool decides;    // whether the program, or alpha, decides which pixels or samples are drawn
+    bool testsLate;  // and whether the tests need to know
+    bool readsEdges, readsCentroids;
+    const Outputs& outputs;
+    const Stencil& stencil;
+
+    AnyState(const Draw& draw, const Tile& tile)
+        : depthTest(tile.hasDepth() ? draw.state.depthTest : Compare::always),
+          usesDepth(tile.hasDepth() && (depthTest != Compare::always || draw.state.depthWrite)),
+          depthWrite(tile.hasDepth() && draw.state.depthWrite),
+          usesStencil(tile.hasStencil() && draw.state.stencil.isUsed()),
+          decides(draw.programs->discards || draw.state.alphaToCoverage || draw.programs->outputs.depth ||
+                  draw.programs->outputs.coverage),
+          testsLate(draw.programs->outputs.depth || (decides && usesStencil)),
+          readsEdges(draw.programs->components > 0),
+          readsCentroids(draw.geometry.hasCentroid),
+          outputs(draw.programs->outputs),
+          stencil(draw.state.stencil)
+    {
+    }
+    bool isUsual() const
+    {
+        return depthTest == Compare::less && depthWrite && !usesStencil && !decides && !readsCentroids &&
+               !outputs.more();
+    }
+};
+template <bool interpolates>
+struct UsualState
+{
+    static constexpr bool severalSamples = false, hasOneTarget = true;
+    static constexpr Compare depthTest = Compare::less;
+    static constexpr bool usesDepth = true, depthWrite = true, usesStencil = false, decides = false, testsLate = false,
+                          readsEdges = interpolates, readsCentroids = false;
+    static constexpr Outputs outputs = {1, false, false};
+    static constexpr Stencil stencil = {};
+};
+
+// One triangle's way through a run of blocks: its edges at the pixels' centres, and at their samples, where there are
+// several.
+template <bool severalSamples>
+struct TriangleInTile
+{
+    TriangleWeights weights;
+    TriangleEdges edges;
+    std::array<TriangleEdges, severalSamples ? kMaxSamples : 0> sampleEdges;
+    int lane = -1;
+    bool isFront;
+
+    void set(const Draw& draw, const TriangleBatch& batch, int triangle)
+    {
+        lane = triangle;
+        isFront = relief::isFront(draw.geometry, *batch.triangle[lane]);
+        weights.set(batch, triangle);
+        edges.set(batch, triangle);
+        if constexpr (severalSamples) {
+            for (std::size_t s = 0; s < static_cast<std::size_t>(batch.samples->count); ++s)
+                sampleEdges[s].set(batch, triangle, batch.samples->position[s]);
+        }
+    }
+};
+
+// Whether bounds alone show that a triangle is behind all that they are of.
+template <class State>
+bool isBehind(const State& state, const TriangleWeights& triangle, const DepthBounds& bounds)
+{
+    return leavesOut::hidden && state.usesDepth && !state.usesStencil && !state.testsLate &&
+           isHidden(state.depthTest, triangle.nearest, triangle.farthest, bounds);
+}
+
+// Writes the depth of a block's live pixels, all of which lie between two depths.
+template <class State>
+void writeDepth(const State& state, const DepthBounds& between, bool isWhole, unsigned live, Float depth, Float old,
+                float* stored, DepthBounds& bounds)
+{
+    if (!state.depthWrite || live == 0) return;
+    select(Mask::fromBits(live), depth, old).store(stored);
+    updateBounds(state.depthTest, between.nearest, between.farthest, isWhole, bounds);
+}
+
+DepthBounds depthsOf(const TriangleWeights& triangle)
+{
+    return {triangle.nearest, triangle.farthest};
+}
+
+// The stencil test, the depth test, and what both write, of one sample of a block's pixels. Returns the lanes that
+// pass.
+template <class State>
+[[gnu::noinline]] unsigned testStencilAndDepth(const State& state, bool isFront, unsigned lanes, Float depth,
+                                               const DepthBounds& between, int block, int sample, Tile& tile)
+{
+    const StencilFace& face = isFront ? state.stencil.front : state.stencil.back;
+    std::int32_t* const words = state.usesStencil ? tile.stencil(sample) : nullptr;
+    const unsigned tested = lanes;
+    if (words != nullptr) lanes &= testStencil(state.stencil, face, Int::load(words)).bits();
+    const unsigned passed = lanes;
+    if (state.usesDepth) {
+        float* const stored = tile.depth(sample);
+        const Float old = Float::load(stored);
+        lanes &= compareBy(state.depthTest, depth, old).bits();
+        writeDepth(state, between, false, lanes, depth, old, stored, tile.bounds(block));
+    }
+    if (words != nullptr) {
+        stencilAfter(state.stencil, face, Int::load(words), Mask::fromBits(tested), Mask::fromBits(passed),
+                     Mask::fromBits(lanes))
+            .store(words);
+    }
+    return lanes;
+}
+
+// Not in a loop, in which g++ 12 would keep the values in memory.
+void storeEdges(const Float (&edge)[3], float (&to)[3][kLanes])
+{
+    edge[0].store(to[0]);
+    edge[1].store(to[1]);
+    edge[2].store(to[2]);
+}
+
+// A block that is to be shaded.
+void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsigned live, Counts& counts)
+{
+    block.live = live;
+    block.quads = wholeQuads(leavesOut::hidden ? live : covered.coverage);
+    block.index = index;
+    block.covered = covered;
+    counts.quadPixels += static_cast<unsigned>(countBits(block.quads));
+    counts.pixels += static_cast<unsigned>(countBits(live));
+}
+
+// Before the program runs: which pixels pass the depth test. `inTile`: bounds of all blocks together. Their depth is
+// written here, too, unless the program may throw them away afterwards. Returns whether there is anything to shade.
+template <class State>
+bool testEarly(const State& state, const TriangleInTile<false>& triangle, const CoveredBlock& covered,
+               const SampleCoverage* /* the one sample's is the block's */, const DepthBounds& inTile,
+               ShadedBlock& block, Tile& tile, Counts& counts)
+{
+    const TriangleWeights& weights = triangle.weights;
+    const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
+    const unsigned coverage = covered.coverage;
+    counts.covered += static_cast<unsigned>(countBits(coverage));
+    if (isBehind(state, weights, inTile) || isBehind(state, weights, tile.bounds(index))) return false;
+    unsigned live = coverage;
+    if (state.usesDepth || state.usesStencil || state.readsEdges) {
+        Float edge[3];
+        triangle.edges.at(x, y, edge);
+        if (state.testsLate) {
+            // and all pixels are shaded
+        } else if (state.usesStencil) {
+            live = testStencilAndDepth(state, triangle.isFront, live, weights.depth(edge[1], edge[2]),
+                                       depthsOf(weights), index, index, tile);
+            if (leavesOut::hidden && live == 0) return false;
+        } else if (state.usesDepth) {
+            float* const stored = tile.depth(index);
+            const Float depth = weights.depth(edge[1], edge[2]), old = Float::load(stored);
+            live &= compareBy(state.depthTest, depth, old).bits();
+            if (leavesOut::hidden && live == 0) return false;
+            if (!state.decides)
+                writeDepth(state, depthsOf(weights), coverage == kAllLanes, live, depth, old, stored,
+                           tile.bounds(index));
+        }
+        if (state.readsEdges) storeEdges(edge, block.edge);
+        if (state.readsCentroids) storeEdges(edge, block.centroid);
+    }
+    setBlock(block, covered, index, live, counts);
+    return true;
+}
+
+// The same where a pixel has several samples, each with a depth of its own.
+template <class State>
+bool testEarly(const State& state, const TriangleInTile<true>& triangle, const CoveredBlock& covered,
+               const SampleCoverage* samples, const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
+{
+    const TriangleWeights& weights = triangle.weights;
+    const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
+    DepthBounds& bounds = tile.bounds(index);
+    counts.covered += static_cast<unsigned>(countBits(covered.coverage));
+    if (isBehind(state, weights, inTile) || isBehind(state, weights, bounds)) return false;
+    Float edge[3];
+    triangle.edges.at(x, y, edge);
+    storeEdges(edge, block.edge);
+    storeEdges(edge, block.centroid);
+    const unsigned inside = ((edge[0] >= 0.0f) & (edge[1] >= 0.0f) & (edge[2] >= 0.0f)).bits();
+    unsigned live = 0, everywhere = kAllLanes, placed = inside;
+    for (int s = 0; s < tile.samples().count; ++s) {
+        unsigned lanes = (*samples)[static_cast<std::size_t>(s)];
+        everywhere &= lanes;
+        triangle.sampleEdges[static_cast<std::size_t>(s)].at(x, y, edge);
+        // The centroid of a pixel whose centre is not in the triangle is its first sample that is.
+        const Mask first = Mask::fromBits(lanes & ~placed);
+        for (int k = 0; k < 3; ++k) select(first, edge[k], Float::load(block.centroid[k])).store(block.centroid[k]);
+        placed |= lanes;
+        const Float depth = weights.depth(edge[1], edge[2]);
+        const int sample = tile.sampleOf(index, s);
+        if (state.testsLate) {
+            // and all samples are shaded
+        } else if (!state.decides) {
+            lanes = testStencilAndDepth(state, triangle.isFront, lanes, depth, depthsOf(weights), index, sample, tile);
+        } else if (state.usesDepth) {
+            lanes &= compareBy(state.depthTest, depth, Float::load(tile.depth(sample))).bits();
+        }
+        block.liveSamples[static_cast<std::size_t>(s)] = static_cast<std::uint16_t>(lanes);
+        live |= lanes;
+    }
+    if (leavesOut::hidden && live == 0) return false;
+    if (everywhere == kAllLanes && state.depthWrite && !state.decides && !state.usesStencil)
+        updateBounds(state.depthTest, weights.nearest, weights.farthest, true, bounds);
+    setBlock(block, covered, index, live, counts);
+    block.covered.coverage = static_cast<std::uint16_t>(inside);
+    return true;
+}
+
+// Which of these lanes the program has left, and whose alpha is enough for a sample: the first one takes the least, and
+// each one after it more.
+unsigned keptLanes(const Draw& draw, const ShadedBlock& block, unsigned lanes, int sample, int count)
+{
+    if (draw.programs->discards) lanes &= ~block.discarded;
+    if (draw.programs->outputs.coverage) lanes &= ((Int::load(block.more->coverage) & (1 << sample)) != 0).bits();
+    if (!draw.state.alphaToCoverage) return lanes;
+    const float least = (static_cast<float>(sample) + 0.5f) / static_cast<float>(count);
+    return lanes & (Float::load(block.color[3]) >= least).bits();
+}
+
+// After the program: the tests that waited for it, or the depth of what is left. Returns the lanes that are drawn.
+template <class State>
+unsigned testLate(const State& state, bool isFront, const TriangleWeights& weights, const TriangleEdges& edges,
+                  const ShadedBlock& block, unsigned lanes, int sample, Tile& tile)
+{
+    if (!state.usesDepth && !state.testsLate) return lanes;
+    Float edge[3];
+    edges.at(block.covered.x, block.covered.y, edge);
+    Float depth = weights.depth(edge[1], edge[2]);
+    DepthBounds between = depthsOf(weights);
+    if (state.outputs.depth) {
+        depth = saturate(Float::load(block.more->depth));
+        between = {0.0f, 1.0f};
+    }
+    if (state.testsLate) return testStencilAndDepth(state, isFront, lanes, depth, between, block.index, sample, tile);
+    float* const stored = tile.depth(sample);
+    writeDepth(state, between, false, lanes, depth, Float::load(stored), stored, tile.bounds(block.index));
+    return lanes;
+}
+template <class State>
+void testLate(const State& state, const Draw& draw, const TriangleInTile<false>& triangle, ShadedBlock& block,
+              Tile& tile)
+{
+    const unsigned lanes = keptLanes(draw, block, block.live, 0, 1);
+    block.live = testLate(state, triangle.isFront, triangle.weights, triangle.edges, block, lanes, block.index, tile);
+}
+template <class State>
+void testLate(const State& state, const Draw& draw, const TriangleInTile<true>& triangle, ShadedBlock& block,
+              Tile& tile)
+{
+    block.live = 0;
+    for (int s = 0; s < tile.samples().count; ++s) {
+        const auto number = static_cast<std::size_t>(s);
+        const unsigned kept = keptLanes(draw, block, block.liveSamples[number], s, tile.samples().count);
+        const unsigned lanes = testLate(state, triangle.isFront, triangle.weights, triangle.sampleEdges[number], block,
+                                        kept, tile.sampleOf(block.index, s), tile);
+        block.liveSamples[number] = static_cast<std::uint16_t>(lanes);
+        block.live |= lanes;
+    }
+}
+
+// Calls merge(words, live lanes) for each sample of a block; `plane` are the target's words.
+template <Format format, bool severalSamples, class Merge>
+void forSamples(const Tile& tile, std::int32_t* plane, const ShadedBlock& block, const Merge& merge)
+{
+    const auto wordsOf = [plane](int sample) {
+        return plane + static_cast<std::ptrdiff_t>(sample) * (kLanes * wordsPerPixel(format));
+    };
+    if constexpr (severalSamples) {
+        for (int s = 0; s < tile.samples().count; ++s)
+            merge(wordsOf(tile.sampleOf(block.index, s)), block.liveSamples[static_cast<std::size_t>(s)]);
+    } else {
+        merge(wordsOf(block.index), block.live);
+    }
+}
+
+// What the program gives one of the targets.
+const Channels& colorOf(const ShadedBlock& block, int target)
+{
+    return target == 0 ? block.color : block.more->color[target - 1];
+}
+
+// Returns how many pixels had a NaN or an infinity. By itself, so that its numbers stay in registers.
+template <Format format, bool severalSamples>
+[[gnu::noinline, gnu::flatten]] unsigned mergeBlocks(std::span<const ShadedBlock> blocks, int target, Blend blend,
+                                                     Tile& tile)
+{
+    std::int32_t* const plane = tile.color<format>(target, 0);
+    unsigned allInvalid = 0;
+    const auto forEach = [&](const auto& merge) {
+        for (const ShadedBlock& block : blocks) allInvalid += static_cast<unsigned>(merge(block));
+    };
+    if (blend == Blend::off) {
+        ColorWriter<format> writer;
+        forEach([&](const ShadedBlock& block) {
+            const int invalid = writer.set(colorOf(block, target), block.live);
+            forSamples<format, severalSamples>(tile, plane, block,
+                                               [&](std::int32_t* words, unsigned live) { writer.store(words, live); });
+            return invalid;
+        });
+    } else {
+        forEach([&](const ShadedBlock& block) {
+            float4 color = loadChannels(colorOf(block, target));
+            const int invalid = sanitizeColor(color, Mask::fromBits(block.live));
+            forSamples<format, severalSamples>(tile, plane, block, [&](std::int32_t* words, unsigned live) {
+                blendInto<format>(words, blend, color, Mask::fromBits(live));
+            });
+            return invalid;
+        });
+    }
+    return allInvalid;
+}
+
+TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Triangle& triangle, bool isFront)
+{
+    return {
+        {componentsOf(draw.geometry, chunk, triangle.vertex[0]), componentsOf(draw.geometry, chunk, triangle.vertex[1]),
+         componentsOf(draw.geometry, chunk, triangle.vertex[2])},
+        isFront};
+}
+
+template <class State>
+void shadeBlocksIn(const State& state, const Draw& draw, std::span<const CoveredBlock> blocks,
+                   const SampleCoverage* samples, const TriangleBatch& batch, const TriangleChunk& chunk, Tile& tile,
+                   Counts& counts)
+{
+    constexpr bool severalSamples = State::severalSamples;
+    const unsigned targets = draw.state.colorWrite ? state.outputs.targets & tile.colors() : 0;
+    const bool runsProgram = targets != 0 || state.decides;
+    const std::size_t groupSize = state.decides ? 1 : kBlocksPerGroup;
+    const bool isLarge = static_cast<int>(blocks.size()) >= kBlocksOfLargeTriangle * countBits(batch.visible);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const DepthBounds inTile = isLarge ? tile.wholeBounds() : DepthBounds{-infinity, infinity};
+    std::array<ShadedBlock, kBlocksPerGroup> group;
+    std::array<MoreOutputs, State::hasOneTarget ? 0 : kBlocksPerGroup> more;
+    if constexpr (!State::hasOneTarget) {
+        for (std::size_t i = 0; i < groupSize; ++i) group[i].more = &more[i];
+    }
+    std::array<TriangleCorners, kLanes> corners;
+    TriangleInTile<severalSamples> triangle;
+    for (auto next = blocks.begin(); next != blocks.end();) {
+        ShadedBlock* free = group.data();
+        for (; next != blocks.end() && free != group.data() + groupSize; ++next) {
+            if (next->triangle != triangle.lane) {
+                triangle.set(draw, batch, next->triangle);
+                corners[next->triangle] = cornersOf(draw, chunk, *batch.triangle[triangle.lane], triangle.isFront);
+            }
+            const SampleCoverage* of = severalSamples ? samples + (next - blocks.begin()) : nullptr;
+            if (testEarly(state, triangle, *next, of, inTile, *free, tile, counts)) ++free;
+        }
+        const std::span<ShadedBlock> shaded(group.data(), free);
+        counts.blocks += static_cast<unsigned>(shaded.size());
+        if (!runsProgram || shaded.empty()) continue;
+        draw.programs->shadeBlocks(draw.fragmentProgram.get(), shaded, batch, corners.data());
+        if (state.decides) testLate(state, draw, triangle, group[0], tile);
+        const auto merge = [&](int target) {
+            withFormat(tile.colorFormat(target), [&]<Format format>() {
+                counts.invalid += mergeBlocks<format, severalSamples>(shaded, target, draw.state.blend, tile);
+            });
+        };
+        if constexpr (State::hasOneTarget) {
+            if (targets != 0) merge(0);
+        } else {
+            for (unsigned rest = targets; rest != 0; rest &= rest - 1) merge(std::countr_zero(rest));
+        }
+    }
+    if (!state.depthWrite) return;
+    updateBounds(state.depthTest, 0.0f, 1.0f, false, tile.wholeBounds());  // whatever was written
+    if (isLarge) tile.refreshWholeBounds();
+}
+
+// By itself, so that the usual ways below have the registers.
+[[gnu::noinline, gnu::flatten]] Counts shadeSamples(const Draw& draw, std::span<const CoveredBlock> blocks,
+                                                    const SampleCoverage* samples, const TriangleBatch& batch,
+                                                    const TriangleChunk& chunk, Tile& tile)
+{
+    Counts counts;
+    shadeBlocksIn(AnyState<true>(draw, tile), draw, blocks, samples, batch, chunk, tile, counts);
+    return counts;
+}
+
+}  // namespace
+
+[[gnu::flatten]] void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const SampleCoverage* samples,
+                                  const TriangleBatch& batch, const TriangleChunk& chunk, Tile& tile,
+                                  Statistics& statistics)
+{
+    Counts counts;
+    const AnyState<false> state(draw, tile);
+    if (tile.samples().isMultiple()) {
+        counts = shadeSamples(draw, blocks, samples, batch, chunk, tile);
+    } else if (state.isUsual() && state.readsEdges) {
+        shadeBlocksIn(UsualState<true>(), draw, blocks, nullptr, batch, chunk, tile, counts);
+    } else if (state.isUsual()) {
+        shadeBlocksIn(UsualState<false>(), draw, blocks, nullptr, batch, chunk, tile, counts);
+    } else {
+        shadeBlocksIn(state, draw, blocks, nullptr, batch, chunk, tile, counts);
+    }
+    shading.activeLanes = kAllLanes;
+    statistics.blocksShaded += counts.blocks;
+    statistics.quadsShaded += counts.quadPixels / 4;
+    statistics.pixelsShaded += counts.pixels;
+    statistics.pixelsHidden += counts.covered - counts.pixels;
+    statistics.invalidColors += counts.invalid;
+}
+
+}  // namespace relief::inline RELIEF_WIDTH

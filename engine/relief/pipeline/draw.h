@@ -1,0 +1,50 @@
+// One draw, and the whole pipeline on one screen: start here.
+//
+//     vertices     shadeVertices   the vertex program, kLanes vertices at a time      -> clip space, screen
+//     triangles    setUpTriangles  clip, cull, snap to the pixel grid (setUpLines: lines become thin triangles)
+//                  binTriangles    to the tiles that each one touches
+//     tile by tile rasterise       which pixels of which blocks are covered, a TriangleBatch at a time
+//                  shadeBlocks     early depth test, the fragment program, merge
+//
+// Programs are functors on lanes. What is compiled with them is in program.h: two functions and the tables of their
+// structs. A Draw is plain data, and all of the steps above are compiled once, in the engine. frame.h runs it all.
+#pragma once
+
+#include <span>
+
+#include "relief/error.h"
+#include "relief/mesh/mesh.h"
+#include "relief/pipeline/geometry.h"
+#include "relief/pipeline/program.h"
+#include "relief/pipeline/raster.h"
+#include "relief/pipeline/render_state.h"
+#include "relief/pipeline/statistics.h"
+#include "relief/pipeline/tile.h"
+
+namespace relief::inline RELIEF_WIDTH {
+
+struct Draw
+{
+    std::string mesh;  // its name
+    const Programs* programs;
+    ErasedProgram vertexProgram, fragmentProgram;  // copies
+    RenderState state;
+    std::vector<StreamView> streams;  // one for each field of VertexData; without words for SV_VertexID and the like
+    std::vector<Interpolation> interpolations;  // of each component
+    DrawGeometry geometry;
+};
+
+// The draw of a mesh, or a part of it, with copies of its programs: everything but where it goes. An error, one
+// sentence, where the mesh does not have what VertexData asks for.
+Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, const void* fragmentProgram,
+                        const Mesh& mesh, const RenderState& state, const MeshPart& part);
+
+// Vertices first ... first + count - 1 of all instances, into the geometry's arrays.
+void shadeVertices(const Draw& draw, std::uint32_t first, std::uint32_t count);
+
+// Covered blocks of one tile, in order; all triangles belong to this draw, this chunk and this batch. `samples` of each
+// block, where the tile has several a pixel.
+void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const SampleCoverage* samples,
+                 const TriangleBatch& batch, const TriangleChunk& chunk, Tile& tile, Statistics& statistics);
+
+}  // namespace relief::inline RELIEF_WIDTH

@@ -1,0 +1,211 @@
+#include "relief/pipeline/framebuffer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <string>
+
+namespace relief {
+
+namespace {
+
+bool isDepth(Format format)
+{
+    return format == Format::depth32f;
+}
+bool isStencil(Format format)
+{
+    return format == Format::stencil8;
+}
+
+// The n-th attachment, counted from 0, that `is` says; -1 where there are not so many.
+template <class Is>
+int find(const std::vector<Attachment>& attachments, int n, const Is& is)
+{
+    for (std::size_t i = 0; i < attachments.size(); ++i) {
+        if (is(attachments[i].format) && n-- == 0) return static_cast<int>(i);
+    }
+    return -1;
+}
+
+std::string countOf(int number, const char* what)
+{
+    return std::to_string(number) + " " + what;
+}
+
+}  // namespace
+
+Expected<Framebuffer> Framebuffer::create(int width, int height, const std::vector<Attachment>& attachments,
+                                          int samples)
+{
+    const std::string size = "size " + std::to_string(width) + "x" + std::to_string(height);
+    if (width < 1 || height < 1 || width > kMaxTargetSize || height > kMaxTargetSize) {
+        return fail(size + " is not possible: width and height must be 1 to " + std::to_string(kMaxTargetSize));
+    }
+    const auto numberOf = [&](const auto& is) {
+        return static_cast<int>(
+            std::count_if(attachments.begin(), attachments.end(), [&](const Attachment& a) { return is(a.format); }));
+    };
+    const int colors = numberOf(isColor), depths = numberOf(isDepth), stencils = numberOf(isStencil);
+    if (attachments.empty() || colors > kMaxColors || depths > 1 || stencils > 1) {
+        return fail("a target of " + countOf(colors, "colour, ") + countOf(depths, "depth and ") +
+                    countOf(stencils, "stencil attachments is not possible: give it at most ") +
+                    std::to_string(kMaxColors) + ", 1 and 1, and at least one of them");
+    }
+    if (samplePattern(samples) == nullptr) {
+        return fail("a target with " + std::to_string(samples) +
+                    " samples a pixel is not possible: choose 1, 2, 4 or 8");
+    }
+
+    Framebuffer target;
+    target.mWidth = width;
+    target.mHeight = height;
+    target.mSamples = samplePattern(samples);
+    target.mAttachments = attachments;
+    target.mWords.resize(attachments.size());
+    for (std::size_t i = 0; i < attachments.size(); ++i) {
+        const std::size_t count = target.wordCount(static_cast<int>(i));
+        if (count == 0) continue;
+        target.mWords[i].reset(static_cast<std::uint32_t*>(std::calloc(count, sizeof(std::uint32_t))));
+        if (!target.mWords[i]) {
+            return fail(size + " takes " + std::to_string(count / 262144) +
+                        " MiB for one attachment, which this machine does not have; choose a smaller size");
+        }
+    }
+    std::fill(target.depth().begin(), target.depth().end(), 1.0f);
+    return target;
+}
+
+Expected<Framebuffer> Framebuffer::create(int width, int height, Format color, Store depth, int samples)
+{
+    return create(width, height, std::vector<Attachment>{{color, Store::keep}, {Format::depth32f, depth}}, samples);
+}
+
+Framebuffer::Framebuffer(const Framebuffer& other)
+    : mWidth(other.mWidth),
+      mHeight(other.mHeight),
+      mSamples(other.mSamples),
+      mAttachments(other.mAttachments),
+      mWords(other.mWords.size())
+{
+    for (std::size_t i = 0; i < mWords.size(); ++i) {
+        const std::size_t bytes = wordCount(static_cast<int>(i)) * sizeof(std::uint32_t);
+        if (bytes == 0) continue;
+        mWords[i].reset(static_cast<std::uint32_t*>(std::malloc(bytes)));
+        if (!mWords[i]) std::abort();  // as for every copy of a container, but without an exception
+        std::memcpy(mWords[i].get(), other.mWords[i].get(), bytes);
+    }
+}
+
+Framebuffer& Framebuffer::operator=(const Framebuffer& other)
+{
+    return *this = Framebuffer(other);
+}
+
+std::size_t Framebuffer::wordCount(int attachment) const
+{
+    const Attachment& a = mAttachments[static_cast<std::size_t>(attachment)];
+    if (a.store == Store::discard) return 0;
+    return static_cast<std::size_t>(mWidth) * static_cast<std::size_t>(mHeight) *
+           static_cast<std::size_t>(wordsPerPixel(a.format));
+}
+
+int Framebuffer::colorIndex(int n) const
+{
+    return find(mAttachments, n, isColor);
+}
+int Framebuffer::depthIndex() const
+{
+    return find(mAttachments, 0, isDepth);
+}
+int Framebuffer::stencilIndex() const
+{
+    return find(mAttachments, 0, isStencil);
+}
+
+std::span<std::uint32_t> Framebuffer::words(int attachment)
+{
+    return {mWords[static_cast<std::size_t>(attachment)].get(), wordCount(attachment)};
+}
+std::span<const std::uint32_t> Framebuffer::words(int attachment) const
+{
+    return {mWords[static_cast<std::size_t>(attachment)].get(), wordCount(attachment)};
+}
+
+// The pixels of the attachment with this format.
+template <class Pixel>
+std::span<Pixel> Framebuffer::pixels(Format format) const
+{
+    for (std::size_t i = 0; i < mWords.size(); ++i) {
+        if (mAttachments[i].format != format) continue;
+        const std::size_t bytes = wordCount(static_cast<int>(i)) * sizeof(std::uint32_t);
+        return {reinterpret_cast<Pixel*>(mWords[i].get()), bytes / sizeof(Pixel)};
+    }
+    return {};
+}
+
+std::span<std::uint32_t> Framebuffer::color8()
+{
+    const auto linear = pixels<std::uint32_t>(Format::rgba8);
+    return linear.empty() ? pixels<std::uint32_t>(Format::rgba8Srgb) : linear;
+}
+std::span<const std::uint32_t> Framebuffer::color8() const
+{
+    const auto linear = pixels<const std::uint32_t>(Format::rgba8);
+    return linear.empty() ? pixels<const std::uint32_t>(Format::rgba8Srgb) : linear;
+}
+std::span<std::array<std::uint16_t, 4>> Framebuffer::color16f()
+{
+    return pixels<std::array<std::uint16_t, 4>>(Format::rgba16f);
+}
+std::span<const std::array<std::uint16_t, 4>> Framebuffer::color16f() const
+{
+    return pixels<const std::array<std::uint16_t, 4>>(Format::rgba16f);
+}
+std::span<float> Framebuffer::colorR32f()
+{
+    return pixels<float>(Format::r32f);
+}
+std::span<const float> Framebuffer::colorR32f() const
+{
+    return pixels<const float>(Format::r32f);
+}
+std::span<glm::vec4> Framebuffer::color32f()
+{
+    return pixels<glm::vec4>(Format::rgba32f);
+}
+std::span<const glm::vec4> Framebuffer::color32f() const
+{
+    return pixels<const glm::vec4>(Format::rgba32f);
+}
+std::span<float> Framebuffer::depth()
+{
+    return pixels<float>(Format::depth32f);
+}
+std::span<const float> Framebuffer::depth() const
+{
+    return pixels<const float>(Format::depth32f);
+}
+
+std::span<std::uint32_t> Framebuffer::stencil()
+{
+    return pixels<std::uint32_t>(Format::stencil8);
+}
+std::span<const std::uint32_t> Framebuffer::stencil() const
+{
+    return pixels<const std::uint32_t>(Format::stencil8);
+}
+
+bool Framebuffer::samePixels(const Framebuffer& other) const
+{
+    if (mWidth != other.mWidth || mHeight != other.mHeight || mWords.size() != other.mWords.size()) return false;
+    for (std::size_t i = 0; i < mWords.size(); ++i) {
+        const auto index = static_cast<int>(i);
+        const std::span<const std::uint32_t> mine = words(index), theirs = other.words(index);
+        if (mAttachments[i].format != other.mAttachments[i].format || mine.size() != theirs.size()) return false;
+        if (!mine.empty() && std::memcmp(mine.data(), theirs.data(), mine.size_bytes()) != 0) return false;
+    }
+    return true;
+}
+
+}  // namespace relief

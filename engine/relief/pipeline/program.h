@@ -1,0 +1,432 @@
+// A draw's two programs as the pipeline sees them: tables made from their structs, and two functions that run them on
+// lanes. This is all that is compiled with a program. Everything else of the pipeline is compiled once, in the engine.
+//
+//     VertexData  ->  vertex program  ->  Interpolators  ->  fragment program  ->  float4, or a struct of outputs
+#pragma once
+
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "relief/hlsl/signature.h"
+#include "relief/pipeline/interpolate.h"
+#include "relief/pipeline/raster.h"
+#include "relief/texture/shading_scope.h"
+
+namespace relief::inline RELIEF_WIDTH {
+
+// A fragment program that takes this as its second parameter may throw pixels away: discard(alpha < 0.5f).
+class Discard
+{
+public:
+    void operator()(Mask where) { discarded |= where; }
+    Mask discarded = false;
+};
+
+// --- what runs ---
+
+// kLanes vertices: what the streams hold, four words for each field of VertexData, and what the vertex program makes of
+// them: the position, and as many components as the interpolators have.
+struct VertexLanes
+{
+    Float in[kMaxFields][4];
+    float4 position;
+    Float components[kMaxComponents];
+};
+
+// What a fragment program gives beside the colour of target 0. Only what its struct has is written.
+struct MoreOutputs
+{
+    alignas(Float) float color[kMaxColors - 1][4][kLanes];  // of targets 1 ... 3
+    alignas(Float) float depth[kLanes];
+    alignas(Float) std::int32_t coverage[kLanes];
+};
+
+// A block of pixels that a fragment program runs on. Lanes lie here as plain numbers, to be loaded and stored one
+// vector at a time: g++ 12 would copy a struct of them in smaller pieces, which the next load of a whole vector has to
+// wait for.
+struct ShadedBlock
+{
+    alignas(Float) float edge[3][kLanes];      // the edge functions at its pixels, if there is anything to interpolate
+    alignas(Float) float centroid[3][kLanes];  // and at their centroids, if the program asks for them
+    alignas(Float) float color[4][kLanes];     // what the program gives target 0
+    MoreOutputs* more;                         // room for what else it gives, if it does
+    unsigned discarded;                        // what it throws away, a bit per lane
+    unsigned live;                             // pixels whose result counts
+    unsigned quads;                            // those with such a pixel, whole
+    int index;                                 // in the tile
+    CoveredBlock covered;                      // its coverage: the lanes whose pixel's centre is in the triangle
+    SampleCoverage liveSamples;                // where a pixel has several: of each, the lanes where it counts
+};
+
+// The components of a triangle's three corners, and which side of it is seen.
+struct TriangleCorners
+{
+    const float* components[3];
+    bool isFront;
+};
+
+// A copy of a program, or anything else, whose type is forgotten; and how to make one.
+using ErasedProgram = std::unique_ptr<const void, void (*)(const void*)>;
+
+struct ProgramCopier
+{
+    const void* (*copy)(const void* program);
+    void (*destroy)(const void* copied);
+
+    ErasedProgram operator()(const void* program) const { return {copy(program), destroy}; }
+};
+
+// What a fragment program gives.
+struct Outputs
+{
+    unsigned targets;  // a bit for each colour
+    bool depth, coverage;
+
+    bool more() const { return targets > 1 || depth || coverage; }
+};
+
+struct Programs
+{
+    Fields vertexData, interpolators;
+    int components;  // to interpolate: all but SV_POSITION's
+    bool discards;
+    Outputs outputs;
+    ProgramCopier copyVertexProgram, copyFragmentProgram;
+
+    void (*shadeVertices)(const void* vertexProgram, VertexLanes& vertices);
+
+    // Blocks of one batch; `corners` has an element for each of its triangles.
+    void (*shadeBlocks)(const void* fragmentProgram, std::span<ShadedBlock> blocks, const TriangleBatch& batch,
+                        const TriangleCorners* corners);
+};
+
+namespace detail {
+
+// What can be taken as a float4.
+template <class T>
+concept IsColor = requires(T&& value, void (&take)(float4))
+{
+    take(static_cast<T&&>(value));
+};
+
+// That, or a struct of SV_Target<n>, SV_Depth, SV_Coverage: at least one of them.
+template <class T>
+constexpr bool isColorOrOutputs()
+{
+    if constexpr (IsColor<T>) {
+        return true;
+    } else if constexpr (!std::is_class_v<T>) {
+        return false;
+    } else if constexpr (fieldCount<T>() <= 0) {
+        return false;
+    } else {
+        using Fields = FieldsOf<T>;
+        return meanOnly<SystemValue::target, SystemValue::depth, SystemValue::coverage>(Fields{}) &&
+               !namesTwice(Fields{}) && indicesWith<SystemValue::target>(Fields{}) < 1u << kMaxColors;
+    }
+}
+
+// What a fragment program gives, and whether it may throw pixels away; void if it is none for these Interpolators.
+template <class Given, bool throwsAway>
+struct FragmentTypes
+{
+    using Result = Given;
+    static constexpr bool kDiscards = throwsAway;
+};
+template <class FragmentProgram, class Interpolators>
+auto fragmentTypes()
+{
+    // clang-format off
+    if constexpr (requires(const FragmentProgram& p, Interpolators&& i, Discard& d) { p(static_cast<Interpolators&&>(i), d); }) {
+        return FragmentTypes<decltype(std::declval<const FragmentProgram&>()(std::declval<Interpolators>(), std::declval<Discard&>())), true>{};
+    } else if constexpr (requires(const FragmentProgram& p, Interpolators&& i) { p(static_cast<Interpolators&&>(i)); }) {
+        return FragmentTypes<decltype(std::declval<const FragmentProgram&>()(std::declval<Interpolators>())), false>{};
+    } else {
+        return FragmentTypes<void, false>{};
+    }
+    // clang-format on
+}
+template <class FragmentProgram, class Interpolators>
+using FragmentTypesOf = decltype(fragmentTypes<FragmentProgram, Interpolators>());
+
+template <class Result>
+constexpr Outputs outputsOf()
+{
+    if constexpr (IsColor<Result>) {
+        return {1, false, false};
+    } else {
+        using Fields = FieldsOf<Result>;
+        return {indicesWith<SystemValue::target>(Fields{}), componentsWith<SystemValue::depth>(Fields{}) > 0,
+                componentsWith<SystemValue::coverage>(Fields{}) > 0};
+    }
+}
+
+inline void storeColor(const float4& color, float (&to)[4][kLanes])
+{
+    color.x.store(to[0]);
+    color.y.store(to[1]);
+    color.z.store(to[2]);
+    color.w.store(to[3]);
+}
+
+// What a fragment program gives for a block.
+template <class Result>
+void storeOutputs(Result&& result, ShadedBlock& block)
+{
+    if constexpr (IsColor<Result>) {
+        storeColor(result, block.color);
+    } else {
+        forEachField(result, [&block]<class Field>(Field& field) {
+            if constexpr (Field::kSystemValue == SystemValue::depth) {
+                static_cast<const Float&>(field).store(block.more->depth);
+            } else if constexpr (Field::kSystemValue == SystemValue::coverage) {
+                static_cast<const Int&>(field).store(block.more->coverage);
+            } else if constexpr (Field::kIndex == 0) {
+                storeColor(field, block.color);
+            } else {
+                storeColor(field, block.more->color[Field::kIndex - 1]);
+            }
+        });
+    }
+}
+
+// A live compile (samples/live) inlines less: g++ then takes half the time, and the bits are the same.
+#if !defined(RELIEF_FLATTEN)
+#define RELIEF_FLATTEN [[gnu::flatten]]
+#endif
+
+template <class VertexData, class Interpolators, class VertexProgram>
+RELIEF_FLATTEN void shadeVertices(const void* vertexProgram, VertexLanes& vertices)
+{
+    VertexData data;
+    int field = 0;
+    forEachField(data, [&]<class F>(F& value) {
+        for (int c = 0; c < kComponents<typename F::Value>; ++c)
+            setWord(component(static_cast<typename F::Value&>(value), c), vertices.in[field][c]);
+        ++field;
+    });
+    Interpolators result = (*static_cast<const VertexProgram*>(vertexProgram))(data);
+    int slot = 0;
+    forEachField(result, [&]<class F>(F& value) {
+        if constexpr (F::kIsPosition) {
+            vertices.position = value;
+        } else if constexpr (F::kIsInterpolated) {
+            for (int c = 0; c < kComponents<typename F::Value>; ++c)
+                vertices.components[slot++] = wordOf(component(static_cast<typename F::Value&>(value), c));
+        }
+    });
+}
+
+template <class Interpolators, class FragmentProgram, int components>
+void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle, const TriangleEdges& edges,
+                const CornerComponents<components>& corners, bool isFront, ShadedBlock& block)
+{
+    shading.activeLanes = block.quads;
+    const auto input = [&] {
+        Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
+        // Where nothing is interpolated, SV_POSITION alone may want to know them: the compiler sees whether it does.
+        if constexpr (components == 0) edges.at(block.covered.x, block.covered.y, edge);
+        const auto& c = block.centroid;
+        const Float centroid[3] = {Float::load(c[0]), Float::load(c[1]), Float::load(c[2])};
+        return interpolate<Interpolators>(triangle, corners, edge, centroid, isFront, block.covered.coverage,
+                                          block.covered.x, block.covered.y);
+    };
+    if constexpr (FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards) {
+        Discard discard;
+        storeOutputs(program(input(), discard), block);
+        block.discarded = discard.discarded.bits();
+    } else {
+        storeOutputs(program(input()), block);
+    }
+}
+
+template <class Interpolators, class FragmentProgram>
+RELIEF_FLATTEN void shadeBlocks(const void* fragmentProgram, std::span<ShadedBlock> blocks, const TriangleBatch& batch,
+                                const TriangleCorners* corners)
+{
+    const FragmentProgram& program = *static_cast<const FragmentProgram*>(fragmentProgram);
+    CornerComponents<interpolatedComponents(FieldsOf<Interpolators>{})> components;
+    TriangleWeights triangle;
+    TriangleEdges edges;
+    ShadedBlock* next = blocks.data();
+    ShadedBlock* const end = next + blocks.size();
+    while (next != end) {
+        const int current = next->covered.triangle;
+        const auto& [a, b, c] = corners[current].components;
+        const bool isFront = corners[current].isFront;
+        components.set(a, b, c);
+        triangle.set(batch, current);
+        if constexpr (components.kCount == 0) edges.set(batch, current);
+        do {
+            shadeBlock<Interpolators>(program, triangle, edges, components, isFront, *next);
+        } while (++next != end && next->covered.triangle == current);
+    }
+}
+
+// --- what a program must look like; a failure names the sentence that is not met ---
+
+// Whether the compiler joins a product and a sum into one rounding in this file, which would give its programs bits of
+// their own. One for each file, on purpose.
+static inline bool contractsProducts()
+{
+    volatile float one = 1.0f + 0x1p-12f, square = one * one;
+    const float a = one, b = square;
+    return a * a - b != 0.0f;
+}
+
+// A type without const and &. The standard's traits, here and below, would each cost a compiler that reads precompiled
+// headers more than the check itself: with one of them it loads all that was made of it.
+template <class T>
+struct Bare
+{
+    using Type = T;
+};
+template <class T>
+struct Bare<const T> : Bare<T>
+{
+};
+template <class T>
+struct Bare<T&> : Bare<T>
+{
+};
+template <class T>
+struct Bare<T&&> : Bare<T>
+{
+};
+
+// The structs that a vertex program takes and gives; void if it is no vertex program.
+template <class Operator>
+struct VertexTypesOf
+{
+    using VertexData = void;
+    using Interpolators = void;
+};
+template <class Result, class Program, class Parameter>
+struct VertexTypesOf<Result (Program::*)(Parameter) const>
+{
+    using VertexData = typename Bare<Parameter>::Type;
+    using Interpolators = typename Bare<Result>::Type;
+};
+template <class Result, class Program, class Parameter>
+struct VertexTypesOf<Result (Program::*)(Parameter) const noexcept>
+    : VertexTypesOf<Result (Program::*)(Parameter) const>
+{
+};
+template <class VertexProgram>
+auto vertexTypes()
+{
+    if constexpr (requires { &VertexProgram::operator(); }) {
+        return VertexTypesOf<decltype(&VertexProgram::operator())>{};
+    } else {
+        return VertexTypesOf<void>{};  // a template, or several of them
+    }
+}
+template <class VertexProgram>
+using VertexDataFor = typename decltype(vertexTypes<VertexProgram>())::VertexData;
+template <class VertexProgram>
+using InterpolatorsFor = typename decltype(vertexTypes<VertexProgram>())::Interpolators;
+
+template <class FragmentProgram, class Interpolators>
+constexpr bool checkInterpolators()
+{
+    using Fields = FieldsOf<Interpolators>;
+    constexpr bool hasOnePosition = positionCount(Fields{}) == 1;
+    constexpr bool isFewEnough = interpolatedComponents(Fields{}) <= kMaxComponents;
+    constexpr bool namesOnce = !hasOnePosition || !namesTwice(Fields{});
+    constexpr bool integersFlat = integersAreFlat(Fields{});
+    constexpr bool clipsFewEnough = componentsWith<SystemValue::clipDistance>(Fields{}) <= kMaxClipDistances;
+    static_assert(hasOnePosition,
+                  "Interpolators must have exactly one SV_POSITION: the vertex program's clip-space position");
+    static_assert(isFewEnough, "Interpolators may have at most 128 components");
+    static_assert(namesOnce, "a semantic and its index may stand only once among the Interpolators");
+    static_assert(integersFlat, "integers among the Interpolators must be nointerpolation<...>");
+    static_assert(clipsFewEnough, "SV_ClipDistance may have at most 8 components in all");
+    if constexpr (hasOnePosition && isFewEnough && namesOnce && integersFlat && clipsFewEnough) {
+        using Result = typename FragmentTypesOf<FragmentProgram, Interpolators>::Result;
+        constexpr bool takesInterpolators = isColorOrOutputs<Result>();
+        static_assert(takesInterpolators,
+                      "the fragment program must take the Interpolators that the vertex program returns, and return "
+                      "float4, or a struct of SV_Target<0> ... SV_Target<3>, SV_Depth, SV_Coverage");
+        return takesInterpolators;
+    }
+    return false;
+}
+
+// Whether a type is a struct of semantics that mean nothing else to the pipeline.
+template <class Struct, SystemValue... meanings>
+constexpr bool isStructOf()
+{
+    if constexpr (fieldCount<Struct>() >= 0) {
+        return meanOnly<meanings...>(FieldsOf<Struct>{});
+    } else {
+        return false;
+    }
+}
+
+// Whether two programs and their structs belong together. A mistake is one sentence in the compiler's output: every
+// check has a name, which clang prints, and what would fail for the same reason is not compiled after it.
+template <class VertexProgram, class FragmentProgram>
+constexpr bool checkPrograms()
+{
+    using VertexData = VertexDataFor<VertexProgram>;
+    constexpr bool isVertexProgram = !std::is_same_v<VertexData, void>;
+    static_assert(isVertexProgram, "a vertex program must have: Interpolators operator()(VertexData v) const");
+    if constexpr (isVertexProgram) {
+        using Interpolators = InterpolatorsFor<VertexProgram>;
+        using enum SystemValue;
+        constexpr bool vertexDataIsSemantics = isStructOf<VertexData, none, id, position>();
+        constexpr bool interpolatorsAreSemantics = isStructOf<Interpolators, none, position, facing, clipDistance>();
+        static_assert(vertexDataIsSemantics,
+                      "every field of VertexData (at most 12, no arrays, no base class) must be a semantic: "
+                      "POSITION, NORMAL, TANGENT, TEXCOORD<n, float2>, COLOR<n, float4>, SV_VertexID, SV_InstanceID");
+        static_assert(interpolatorsAreSemantics,
+                      "every field of Interpolators (at most 12, no arrays, no base class) must be a semantic: "
+                      "SV_POSITION, TEXCOORD<n, float4>, COLOR<n, float4>, SV_ClipDistance<n, float4>, SV_IsFrontFace");
+        if constexpr (vertexDataIsSemantics && interpolatorsAreSemantics) {
+            constexpr bool vertexDataHasNoScreen = positionCount(FieldsOf<VertexData>{}) == 0;
+            constexpr bool vertexDataNamesOnce = !namesTwice(FieldsOf<VertexData>{});
+            static_assert(vertexDataHasNoScreen, "VertexData holds POSITION; SV_POSITION is what the program gives");
+            static_assert(vertexDataNamesOnce, "a semantic and its index may stand only once in VertexData");
+            return vertexDataHasNoScreen && vertexDataNamesOnce && checkInterpolators<FragmentProgram, Interpolators>();
+        }
+    }
+    return false;
+}
+
+template <class Program>
+inline constexpr ProgramCopier kCopier = {
+    [](const void* program) -> const void* { return new Program(*static_cast<const Program*>(program)); },
+    [](const void* copied) { delete static_cast<const Program*>(copied); },
+};
+
+template <class VertexProgram, class FragmentProgram, class VertexData = VertexDataFor<VertexProgram>,
+          class Interpolators = InterpolatorsFor<VertexProgram>>
+inline constexpr Programs kPrograms = {
+    kFields<VertexData>,
+    kFields<Interpolators>,
+    interpolatedComponents(FieldsOf<Interpolators>{}),
+    FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards,
+    outputsOf<typename FragmentTypesOf<FragmentProgram, Interpolators>::Result>(),
+    kCopier<VertexProgram>,
+    kCopier<FragmentProgram>,
+    shadeVertices<VertexData, Interpolators, VertexProgram>,
+    shadeBlocks<Interpolators, FragmentProgram>,
+};
+
+// Where a draw finds them. A live compile divides a file's programs among several compilers (samples/live/parts.h).
+#if defined(RELIEF_LIVE)
+template <class VertexProgram, class FragmentProgram>
+const Programs& programsOf();
+#else
+template <class VertexProgram, class FragmentProgram>
+constexpr const Programs& programsOf()
+{
+    return kPrograms<VertexProgram, FragmentProgram>;
+}
+#endif
+
+}  // namespace detail
+
+}  // namespace relief::inline RELIEF_WIDTH

@@ -1,0 +1,348 @@
+#include "relief/pipeline/tile.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "relief/pipeline/format.h"
+
+namespace relief::inline RELIEF_WIDTH {
+
+namespace {
+
+// What the attachments are cleared to, one after the other.
+class ClearValues
+{
+public:
+    explicit ClearValues(const Clear& values) : clear(values) {}
+
+    // The next attachment's; false where it is not cleared.
+    bool next(const Attachment& attachment, std::int32_t (&words)[4])
+    {
+        if (attachment.format == Format::depth32f) {
+            if (clear.depth) words[0] = std::bit_cast<std::int32_t>(*clear.depth);
+            return clear.depth.has_value();
+        }
+        if (attachment.format == Format::stencil8) {
+            if (clear.stencil) words[0] = *clear.stencil;
+            return clear.stencil.has_value();
+        }
+        const std::optional<glm::vec4>& value = clear.color[colors++];
+        if (value) packColor(*value, attachment.format, words);
+        return value.has_value();
+    }
+
+private:
+    const Clear& clear;
+    std::size_t colors = 0;
+};
+
+// Visits the blocks of a tile that lie in a target: visit(block, first pixel in the target, columns, rows).
+template <class Visit>
+void forEachBlock(int width, int height, int blocksWide, std::size_t stride, const Visit& visit)
+{
+    for (int y = 0; y < height; y += kBlockHeight) {
+        int block = y / kBlockHeight * blocksWide;
+        for (int x = 0; x < width; x += kBlockWidth) {
+            visit(block++, static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x),
+                  std::min(kBlockWidth, width - x), std::min(kBlockHeight, height - y));
+        }
+    }
+}
+
+// Copies `columns` x `rows` pixels of `words` words; a whole block's with the sizes as constants.
+template <int words, class To, class From>
+void copyRows(To* to, std::size_t toStride, const From* from, std::size_t fromStride, int columns, int rows)
+{
+    static_assert(sizeof(To) == 4 && sizeof(From) == 4);
+    const auto copy = [&](int width, int height) {
+        for (int row = 0; row < height; ++row) {
+            std::memcpy(to + static_cast<std::size_t>(row) * toStride * words,
+                        from + static_cast<std::size_t>(row) * fromStride * words,
+                        static_cast<std::size_t>(width * words) * 4);
+        }
+    };
+    if (columns == kBlockWidth && rows == kBlockHeight) {
+        copy(kBlockWidth, kBlockHeight);
+    } else {
+        copy(columns, rows);
+    }
+}
+
+// The pixel of a lane among the block's, row after row.
+constexpr int pixelOf(int lane)
+{
+    return laneY(lane) * kBlockWidth + laneX(lane);
+}
+
+template <int words>
+void storeBlocks(const std::int32_t* blocks, int width, int height, int blocksWide, std::size_t stride,
+                 std::uint32_t* target)
+{
+    forEachBlock(width, height, blocksWide, stride, [&](int block, std::size_t pixel, int columns, int rows) {
+        const std::int32_t* from = blocks + block * kLanes * words;
+        std::int32_t pixels[kLanes * words];
+        if constexpr (words == 1) {
+            inRows(Int::load(from)).store(pixels);
+        } else {
+            for (int i = 0; i < kLanes; ++i) {
+                for (int c = 0; c < words; ++c) pixels[pixelOf(i) * words + c] = from[c * kLanes + i];
+            }
+        }
+        copyRows<words>(target + pixel * words, stride, pixels, kBlockWidth, columns, rows);
+    });
+}
+
+template <int words>
+void loadBlocks(std::int32_t* blocks, int width, int height, int blocksWide, std::size_t stride,
+                const std::uint32_t* target)
+{
+    forEachBlock(width, height, blocksWide, stride, [&](int block, std::size_t pixel, int columns, int rows) {
+        std::int32_t* to = blocks + block * kLanes * words;
+        std::int32_t pixels[kLanes * words] = {};
+        copyRows<words>(pixels, kBlockWidth, target + pixel * words, stride, columns, rows);
+        if constexpr (words == 1) {
+            fromRows(Int::load(pixels)).store(to);
+        } else {
+            for (int i = 0; i < kLanes; ++i) {
+                for (int c = 0; c < words; ++c) to[c * kLanes + i] = pixels[pixelOf(i) * words + c];
+            }
+        }
+    });
+}
+
+// The mean of a block's samples, `count` (a power of two) of them one after the other, in linear light. Equal ones give
+// themselves.
+template <Format format>
+void resolveColor(const std::int32_t* samples, int count, std::int32_t* to)
+{
+    const float share = 1.0f / static_cast<float>(count);
+    float4 sum = 0.0f;
+    for (int s = 0; s < count; ++s) {
+        std::array<Int, static_cast<std::size_t>(wordsPerPixel(format))> words;
+        for (Int& word : words) {
+            word = Int::load(samples);
+            samples += kLanes;
+        }
+        sum = sum + decodeColor<format>(words) * share;
+    }
+    for (const Int& word : encodeColor<format>(sum)) {
+        word.store(to);
+        to += kLanes;
+    }
+}
+
+}  // namespace
+
+bool Clear::isAny() const
+{
+    const auto has = [](const std::optional<glm::vec4>& c) { return c.has_value(); };
+    return depth || stencil || std::any_of(color.begin(), color.end(), has);
+}
+
+TargetMemory::TargetMemory(Framebuffer& target)
+    : width(target.width()), height(target.height()), samples(&target.samples()), attachments(target.attachments())
+{
+    for (std::size_t i = 0; i < attachments.size(); ++i) words.push_back(target.words(static_cast<int>(i)).data());
+}
+
+Tile::Tile(int tileSize, const TargetMemory& target)
+    : size(tileSize),
+      blocksWide(tileSize / kBlockWidth),
+      blockCount(blocksWide * (tileSize / kBlockHeight)),
+      pattern(target.samples)
+{
+    for (const Attachment& attachment : target.attachments) {
+        Plane plane = {attachment.format, nullptr};
+        plane.words = std::make_unique<std::int32_t[]>(wordCount(plane));
+        planes.push_back(std::move(plane));
+    }
+    std::size_t colors = 0;
+    for (const Plane& plane : planes) {
+        std::int32_t* const words = plane.words.get();
+        if (plane.format == Format::depth32f) depthWords = reinterpret_cast<float*>(words);
+        if (plane.format == Format::stencil8) stencilWords = words;
+        if (isColor(plane.format)) mColorPlanes[colors++] = {plane.format, words};
+    }
+    mColors = (1u << colors) - 1;
+    mBounds = std::make_unique<DepthBounds[]>(static_cast<std::size_t>(blockCount));
+}
+
+bool Tile::isFor(const TargetMemory& target) const
+{
+    return pattern == target.samples &&
+           std::equal(planes.begin(), planes.end(), target.attachments.begin(), target.attachments.end(),
+                      [](const Plane& plane, const Attachment& a) { return plane.format == a.format; });
+}
+
+std::size_t Tile::wordCount(const Plane& plane) const
+{
+    return static_cast<std::size_t>(blockCount * kLanes * pattern->count * wordsPerPixel(plane.format));
+}
+
+void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
+{
+    originX = x;
+    originY = y;
+    ClearValues values(clear);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        std::int32_t value[4] = {};
+        const bool isCleared = values.next(target.attachments[i], value);
+        const bool isPartial = x + size > target.width || y + size > target.height;
+        if (isCleared || isPartial) fill(planes[i], value);
+        if (!isCleared) load(planes[i], target, target.words[i]);
+    }
+    if (!hasDepth()) return;
+    if (clear.depth) {
+        std::fill_n(mBounds.get(), blockCount, DepthBounds{*clear.depth, *clear.depth});
+    } else {
+        setBounds();
+    }
+    refreshWholeBounds();
+}
+
+void Tile::fill(const Plane& plane, const std::int32_t (&value)[4])
+{
+    const int words = wordsPerPixel(plane.format), blocks = blockCount * pattern->count;
+    if (words == 1) {
+        std::fill_n(plane.words.get(), blocks * kLanes, value[0]);
+        return;
+    }
+    for (int block = 0; block < blocks; ++block) {
+        for (int c = 0; c < words; ++c)
+            std::fill_n(&plane.words[static_cast<std::size_t>((block * words + c) * kLanes)], kLanes, value[c]);
+    }
+}
+
+void Tile::load(const Plane& plane, const TargetMemory& target, const std::uint32_t* from)
+{
+    const auto stride = static_cast<std::size_t>(target.width);
+    const std::size_t first = static_cast<std::size_t>(originY) * stride + static_cast<std::size_t>(originX);
+    const int width = std::min(size, target.width - originX), height = std::min(size, target.height - originY);
+    const int words = wordsPerPixel(plane.format);
+    const auto loadPlane = words == 1 ? loadBlocks<1> : words == 2 ? loadBlocks<2> : loadBlocks<4>;
+    std::int32_t* to = plane.words.get();
+    if (pattern->isMultiple()) {
+        onePerPixel.assign(static_cast<std::size_t>(blockCount * kLanes * words), 0);
+        to = onePerPixel.data();
+    }
+    loadPlane(to, width, height, blocksWide, stride, from + first * static_cast<std::size_t>(words));
+    for (int k = 0; k < blockCount * pattern->count && pattern->isMultiple(); ++k)
+        std::copy_n(to + k / pattern->count * kLanes * words, kLanes * words, plane.words.get() + k * kLanes * words);
+}
+
+// What is kept of several samples, block by block: the mean of colours, the first one's depth and stencil.
+const std::int32_t* Tile::resolved(const Plane& plane)
+{
+    if (!pattern->isMultiple()) return plane.words.get();
+    const int count = pattern->count;
+    onePerPixel.resize(wordCount(plane) / static_cast<std::size_t>(count));
+    withFormat(plane.format, [&]<Format format>() {
+        constexpr int words = kLanes * wordsPerPixel(format);
+        for (int block = 0; block < blockCount; ++block) {
+            const std::int32_t* from = plane.words.get() + block * count * words;
+            std::int32_t* to = onePerPixel.data() + block * words;
+            if constexpr (isColor(format)) {
+                resolveColor<format>(from, count, to);
+            } else {
+                std::copy_n(from, words, to);
+            }
+        }
+    });
+    return onePerPixel.data();
+}
+
+void Tile::setBounds()
+{
+    for (int block = 0; block < blockCount; ++block) {
+        const float* first = depth(sampleOf(block, 0));
+        const auto [low, high] = std::minmax_element(first, first + kLanes * pattern->count);
+        bounds(block) = {*low, *high};
+    }
+}
+
+void Tile::refreshWholeBounds()
+{
+    // Nearest and farthest alternate, so even lanes hold the one and odd lanes the other.
+    static_assert(sizeof(DepthBounds) == 2 * sizeof(float));
+    const float* numbers = &mBounds[0].nearest;
+    Float low = Float::load(numbers), high = low;
+    for (int i = kLanes; i < 2 * blockCount; i += kLanes) {
+        const Float some = Float::load(numbers + i);
+        low = min(low, some);
+        high = max(high, some);
+    }
+    mWholeBounds = {low[0], high[1]};
+    for (int lane = 2; lane < kLanes; lane += 2) {
+        mWholeBounds.nearest = std::min(mWholeBounds.nearest, low[lane]);
+        mWholeBounds.farthest = std::max(mWholeBounds.farthest, high[lane + 1]);
+    }
+}
+
+void Tile::store(const TargetMemory& target)
+{
+    const auto stride = static_cast<std::size_t>(target.width);
+    const std::size_t first = static_cast<std::size_t>(originY) * stride + static_cast<std::size_t>(originX);
+    const int width = std::min(size, target.width - originX), height = std::min(size, target.height - originY);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        if (target.words[i] == nullptr) continue;
+        const int words = wordsPerPixel(planes[i].format);
+        const auto storePlane = words == 1 ? storeBlocks<1> : words == 2 ? storeBlocks<2> : storeBlocks<4>;
+        storePlane(resolved(planes[i]), width, height, blocksWide, stride,
+                   target.words[i] + first * static_cast<std::size_t>(words));
+    }
+}
+
+std::vector<std::int32_t> Tile::save() const
+{
+    std::vector<std::int32_t> saved;
+    for (const Plane& plane : planes) saved.insert(saved.end(), &plane.words[0], &plane.words[0] + wordCount(plane));
+    return saved;
+}
+
+void Tile::restore(int x, int y, const std::vector<std::int32_t>& saved)
+{
+    originX = x;
+    originY = y;
+    const std::int32_t* from = saved.data();
+    for (const Plane& plane : planes) {
+        std::copy_n(from, wordCount(plane), plane.words.get());
+        from += wordCount(plane);
+    }
+    if (!hasDepth()) return;
+    setBounds();
+    refreshWholeBounds();
+}
+
+void packColor(const glm::vec4& color, Format format, std::int32_t (&words)[4])
+{
+    withFormat(format, [&]<Format f>() {
+        const auto lanes = encodeColor<f>(broadcast(color));
+        for (std::size_t i = 0; i < lanes.size(); ++i) words[i] = lanes[i][0];
+    });
+}
+
+void clearRectangle(const TargetMemory& target, const Rectangle& pixels, const Clear& clear)
+{
+    const Rectangle inside = intersect(pixels, {0, 0, target.width, target.height});
+    if (inside.x0 >= inside.x1) return;
+    const auto stride = static_cast<std::size_t>(target.width);
+    const auto count = static_cast<std::size_t>(inside.x1 - inside.x0);
+    ClearValues values(clear);
+    for (std::size_t i = 0; i < target.words.size(); ++i) {
+        std::int32_t value[4] = {};
+        if (!values.next(target.attachments[i], value) || target.words[i] == nullptr) continue;
+        const auto words = static_cast<std::size_t>(wordsPerPixel(target.attachments[i].format));
+        for (int y = inside.y0; y < inside.y1; ++y) {
+            std::uint32_t* row =
+                target.words[i] + (static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(inside.x0)) * words;
+            if (words == 1) {
+                std::fill_n(row, count, static_cast<std::uint32_t>(value[0]));
+                continue;
+            }
+            for (std::size_t k = 0; k < count * words; ++k) row[k] = static_cast<std::uint32_t>(value[k % words]);
+        }
+    }
+}
+
+}  // namespace relief::inline RELIEF_WIDTH

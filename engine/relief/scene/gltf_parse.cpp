@@ -1,0 +1,106 @@
+#include "relief/scene/gltf_parse.h"
+
+#include <cstdint>
+#include <exception>
+#include <vector>
+
+#include "relief/file.h"
+#include "relief/path.h"
+#include "relief/scene/gltf_text.h"
+#include "relief/scene/tinygltf.h"
+
+namespace relief {
+namespace {
+
+std::string folderOf(const std::string& path)
+{
+    return utf8Of(pathOf(path).parent_path());
+}
+
+// tinygltf asks whether a file exists to look for it in the current folder, too: there is only the one beside it.
+bool exists(const std::string&, void*)
+{
+    return true;
+}
+
+std::string samePath(const std::string& path, void*)
+{
+    return path;
+}
+
+// Leaves what went wrong in the string that `user` is.
+bool readWhole(std::vector<unsigned char>* bytes, std::string*, const std::string& path, void* user)
+{
+    std::string& problem = *static_cast<std::string*>(user);
+    if (path.find("data:") != std::string::npos) {
+        problem = "a data URI of a buffer is not application/octet-stream in base64; export the file again";
+        return false;
+    }
+    Expected<std::vector<std::uint8_t>> file = readFile(path);
+    if (!file) problem = file.error().message;
+    if (file) *bytes = std::move(*file);
+    return file.has_value();
+}
+
+// Of a picture in a data URI. Those in buffer views are not looked at: their view is not checked yet.
+bool keepBytes(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
+               int size, void*)
+{
+    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
+    return true;
+}
+
+}  // namespace
+
+std::string pathBeside(const std::string& gltfPath, const std::string& uri)
+{
+    const auto digit = [](char c) {
+        return c >= '0' && c <= '9'   ? c - '0'
+               : c >= 'a' && c <= 'f' ? c - 'a' + 10
+               : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                      : -1;
+    };
+    std::string name;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const bool isCode = uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
+        name += isCode ? static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2])) : uri[i];
+        if (isCode) i += 2;
+    }
+    const std::string folder = folderOf(gltfPath);
+    return folder.empty() ? name : folder + "/" + name;
+}
+
+Expected<void> parseGltf(const std::string& path, tinygltf::Model& model)
+{
+    Expected<std::vector<std::uint8_t>> bytes = readFile(path);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto failHere = [&path](const std::string& what) { return fail(path + ": " + what); };
+    const Expected<GltfText> text = gltfText(*bytes);
+    if (!text) return failHere(text.error().message);
+    if (const Expected<void> checked = checkGltfText(text->json); !checked) return failHere(checked.error().message);
+
+    tinygltf::TinyGLTF reader;
+    std::string readProblem, problem, warning;
+    reader.SetFsCallbacks({exists, samePath, readWhole, nullptr, &readProblem});
+    reader.SetImageLoader(keepBytes, nullptr);
+    bool done = false;
+    try {
+        const auto length = static_cast<unsigned>(text->json.size());
+        const std::string folder = folderOf(path);
+        done = text->isBinary
+                   ? reader.LoadBinaryFromMemory(&model, &problem, &warning, bytes->data(),
+                                                 static_cast<unsigned>(bytes->size()), folder)
+                   : reader.LoadASCIIFromString(&model, &problem, &warning, text->json.data(), length, folder);
+    } catch (const std::exception& exception) {
+        problem = exception.what();
+    }
+    while (problem.ends_with('\n') || problem.ends_with('.')) problem.pop_back();  // tinygltf's own words
+    if (!readProblem.empty()) return failHere(readProblem);
+    if (!done) return failHere((problem.empty() ? "is damaged" : problem) + "; export it again");
+    if (!model.asset.version.starts_with("2.")) {
+        return failHere("asset.version: is '" + model.asset.version + "'; convert it to glTF 2.0");
+    }
+    return {};
+}
+
+}  // namespace relief

@@ -1,0 +1,147 @@
+// Textures from pixels, and their mip levels on demand.
+#include "relief/texture/texture.h"
+
+#include <string>
+
+#include "relief/lanes/environment.h"
+#include "relief/lanes/settled.h"
+#include "relief/memory.h"
+#include "relief/texture/pixels.h"
+#include "relief/texture/shading_scope.h"
+
+namespace relief {
+namespace {
+
+// A texture with its levels takes a third more than the finest one.
+std::string problemWith(TexelFormat format, int width, int height, std::size_t numbers)
+{
+    std::string problem = problemWithPixels(width, height, channelsPerTexel(format), numbers);
+    if (!problem.empty() || fitsInMemory(levelBytes(format, width, height) / 3 * 4)) return problem;
+    return "a texture of " + std::to_string(width) + "x" + std::to_string(height) +
+           " texels does not fit into memory; make it smaller";
+}
+
+}  // namespace
+
+Expected<Texture> Texture::fromRgba8(int width, int height, std::span<const std::uint8_t> rgba, ColorSpace meaning)
+{
+    const DefaultFloatingPoint environment;
+    const TexelFormat format = meaning == ColorSpace::linear ? TexelFormat::rgba8 : TexelFormat::rgba16;
+    if (std::string problem = problemWith(format, width, height, rgba.size()); !problem.empty())
+        return fail(std::move(problem));
+    return Texture(format, levelFromRgba8(width, height, rgba, meaning));
+}
+
+Expected<Texture> Texture::fromRgba16(int width, int height, std::span<const std::uint16_t> rgba, ColorSpace meaning)
+{
+    const DefaultFloatingPoint environment;
+    if (std::string problem = problemWith(TexelFormat::rgba16, width, height, rgba.size()); !problem.empty())
+        return fail(std::move(problem));
+    return Texture(TexelFormat::rgba16, levelFromRgba16(width, height, rgba, meaning));
+}
+
+Expected<Texture> Texture::fromRgbaFloat(int width, int height, std::span<const float> rgba)
+{
+    const DefaultFloatingPoint environment;
+    if (std::string problem = problemWith(TexelFormat::rgba32Float, width, height, rgba.size()); !problem.empty())
+        return fail(std::move(problem));
+    return Texture(TexelFormat::rgba32Float, levelFromRgbaFloat(width, height, rgba));
+}
+
+Expected<Texture> Texture::fromRed(int width, int height, std::span<const float> red)
+{
+    const DefaultFloatingPoint environment;
+    if (std::string problem = problemWith(TexelFormat::r32Float, width, height, red.size()); !problem.empty())
+        return fail(std::move(problem));
+    return Texture(TexelFormat::r32Float, levelFromRed(width, height, red));
+}
+
+Expected<Texture> Texture::fromLevels(TexelFormat format, int width, int height, MakeLevel make)
+{
+    const DefaultFloatingPoint environment;
+    const auto numbers = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                         static_cast<std::size_t>(channelsPerTexel(format));
+    if (std::string problem = problemWith(format, width, height, numbers); !problem.empty())
+        return fail(std::move(problem));
+    Texture texture(format, width, height, std::move(make));
+    if (texture.isConstant()) texture.firstTexel = texture.texel(0, 0);
+    return texture;
+}
+
+const Texture& Texture::white()
+{
+    static const Texture texture =
+        *fromRgba8(1, 1, std::array<std::uint8_t, 4>{255, 255, 255, 255}, ColorSpace::linear);
+    return texture;
+}
+
+const Texture& Texture::grey()
+{
+    static const Texture texture = *fromRgba8(1, 1, std::array<std::uint8_t, 4>{128, 128, 128, 255}, ColorSpace::srgb);
+    return texture;
+}
+
+const Texture& Texture::black()
+{
+    static const Texture texture = *fromRgba8(1, 1, std::array<std::uint8_t, 4>{0, 0, 0, 255}, ColorSpace::linear);
+    return texture;
+}
+
+// In floats: no integer code is exactly one half.
+const Texture& Texture::flatNormal()
+{
+    static const Texture texture = *fromRgbaFloat(1, 1, std::array{0.5f, 0.5f, 1.0f, 0.5f});
+    return texture;
+}
+
+Texture::Texture(TexelFormat format, int width, int height, MakeLevel make)
+    : chain(std::make_unique<Chain>()),
+      firstTexel(0.0f),
+      sizes(1.0f / static_cast<float>(width), 1.0f / static_cast<float>(height), static_cast<float>(width),
+            static_cast<float>(height)),
+      texelFormat(format),
+      columns(width),
+      rows(height),
+      levels(mipLevelCount(width, height))
+{
+    chain->make = std::move(make);
+}
+
+Texture::Texture(TexelFormat format, MipLevel finest)
+    : Texture(format, finest.width(), finest.height(),
+              [format](int, const MipLevel* finer) { return coarserLevel(format, *finer); })
+{
+    chain->levels[0] = std::move(finest);
+    chain->published[0].store(&*chain->levels[0], std::memory_order_release);
+    firstTexel = texel(0, 0);
+}
+
+glm::vec4 Texture::texel(int x, int y) const
+{
+    const DefaultFloatingPoint environment;
+    return settled(readTexel(texelFormat, level(0), x, y));
+}
+
+const MipLevel& Texture::buildLevel(int k) const
+{
+    const ShadingScope scope;  // a block may ask for the level while it is shaded
+    const DefaultFloatingPoint environment;
+    const std::lock_guard lock(chain->building);
+    for (int i = 0; i <= k; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        if (chain->levels[at]) continue;
+        chain->levels[at] = chain->make(i, i > 0 ? &*chain->levels[at - 1] : nullptr);
+        chain->published[at].store(&*chain->levels[at], std::memory_order_release);
+        if (i == levels - 1) chain->make = nullptr;  // with what it kept alive
+    }
+    return *chain->levels[static_cast<std::size_t>(k)];
+}
+
+int Texture::levelsBuilt() const
+{
+    int built = 0;
+    while (built < levels && chain->published[static_cast<std::size_t>(built)].load(std::memory_order_acquire)) ++built;
+    return built;
+}
+
+}  // namespace relief

@@ -1,0 +1,32 @@
+// The header's fields are those of the TGA specification 2.0, section "TGA file header".
+#include "relief/texture/tga_check.h"
+
+namespace relief {
+namespace {
+
+constexpr std::uint64_t kHeader = 18;
+
+// Nothing but TGA, of the formats that we read, has a 0 or 1 for its second byte: without and with a colour map.
+bool isTga(std::span<const std::uint8_t> file)
+{
+    return file.size() >= kHeader && file[1] <= 1;
+}
+
+}  // namespace
+
+std::uint64_t fewestTgaBytes(std::span<const std::uint8_t> file)
+{
+    if (!isTga(file)) return 0;
+    const auto little = [file](std::size_t at) { return std::uint64_t{file[at]} | std::uint64_t{file[at + 1]} << 8; };
+    const std::uint64_t pixels = little(12) * little(14), bytesPerPixel = (file[16] + 7u) / 8u;
+    const bool isRunLengthEncoded = (file[2] & 8) != 0;
+    if (!isRunLengthEncoded) return kHeader + pixels * bytesPerPixel;
+    return kHeader + (pixels + 127) / 128 * (1 + bytesPerPixel);  // each packet is a count and at least one pixel
+}
+
+bool tgaRunsLeftwards(std::span<const std::uint8_t> file)
+{
+    return isTga(file) && (file[17] & 0x10) != 0;
+}
+
+}  // namespace relief

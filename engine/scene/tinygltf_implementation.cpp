@@ -1,5 +1,0 @@
-// The one place where tinygltf is compiled.
-#include <fstream>
-
-#define TINYGLTF_IMPLEMENTATION
-#include "scene/tinygltf.h"
