@@ -47,6 +47,8 @@ std::string programOf(const std::string& arguments)
     std::string name = "relief";
     if (arguments.starts_with("import-environment")) {
         name = "relief_import_environment";
+    } else if (arguments.starts_with("check")) {
+        name = "relief_goldens";
     } else if (arguments.starts_with("bench")) {
         name = has("--peer") ? "relief_bench_peer" : has("--stage") ? "relief_bench_stages" : "relief_bench";
     } else if (arguments.starts_with("report")) {
