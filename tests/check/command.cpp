@@ -239,8 +239,10 @@ TEST_CASE("check accept: what the list says and nothing else, all or nothing")
     // What ran elsewhere: the folder is here under another name, and so are the goldens.
     fs::rename(folder / "golden", folder / "mine");
     fs::rename(folder / "failures", folder / "downloaded");
-    writeList({entry(1)});
-    CHECK(check(folder, "accept accept.json --failures downloaded --goldens mine").code == 0);
+    writeList(nlohmann::json::array({entry(1)}));
+    const Outcome elsewhere = check(folder, "accept accept.json --failures downloaded --goldens mine");
+    CAPTURE(elsewhere.err);
+    CHECK(elsewhere.code == 0);
     CHECK(contents(folder / "mine/b.png") == contents(folder / "actual/b.png"));
 }
 
