@@ -17,8 +17,9 @@ constexpr Expected<void> (*measureSaves)(const LiveBenchOptions&) = nullptr;
 Expected<void> showWindow(const ViewOptions&)
 {
     return fail(
-        "view: this build has no window, SDL2 or Dear ImGui was not found; install libsdl2-dev and libimgui-dev, "
-        "delete the build's CMakeCache.txt and build again (`relief render` works without them)");
+        "view: this build has no window (`relief render` works without one); a clone of the sources has one in "
+        "./relief "
+        "view, with libsdl2-dev and libimgui-dev; if they were not there at first, delete the build's CMakeCache.txt");
 }
 #endif
 

@@ -1,4 +1,4 @@
-// Where there is no Linux: whatever needs live stages says so, in one line.
+// Where there is no Linux, or no source (RELIEF_LIVE=OFF): whatever needs live stages says so, in one line.
 #include "live/load.h"
 #include "live/new_stage.h"
 #include "live/session.h"
@@ -10,7 +10,8 @@ namespace {
 
 tl::unexpected<Error> needsLinux()
 {
-    return fail("a stage is compiled while the program runs on Linux only; build it with relief_add_stage() instead");
+    return fail(
+        "this program compiles no stages: that takes Linux and a clone of Relief's sources, where ./relief does it");
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 # Builds somebody else's golden tests and breaks their goldens on purpose, in a copy of their own:
-#   cmake -DPROJECT=... -DFOLDER=... -DRELIEF=... -DCOMPILER=... -DFILTER=... -P foreign.cmake
-# RELIEF is the folder of reliefConfig.cmake; FILTER an argument that selects one test, empty where there is none.
-file(REMOVE_RECURSE ${FOLDER}/project ${FOLDER}/run)
+#   cmake -DPROJECT=... -DFOLDER=... -DINSTALLED=PREFIX -DCOMPILER=... "-DFLAGS=..." -DFILTER=... -P foreign.cmake
+# FILTER is an argument that selects one test, empty where there is none.
+file(REMOVE_RECURSE ${FOLDER}/project ${FOLDER}/build ${FOLDER}/run)
 file(COPY ${PROJECT}/ DESTINATION ${FOLDER}/project)
 file(MAKE_DIRECTORY ${FOLDER}/run)
-foreach(step "-S;${FOLDER}/project;-B;${FOLDER}/build;-G;Ninja;-Drelief_DIR=${RELIEF};-DCMAKE_CXX_COMPILER=${COMPILER};-DCMAKE_BUILD_TYPE=Debug"
+foreach(step "-S;${FOLDER}/project;-B;${FOLDER}/build;-G;Ninja;-DCMAKE_PREFIX_PATH=${INSTALLED};-DCMAKE_CXX_COMPILER=${COMPILER};-DCMAKE_CXX_FLAGS=${FLAGS}"
     "--build;${FOLDER}/build")
   execute_process(COMMAND ${CMAKE_COMMAND} ${step} RESULT_VARIABLE failed OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(failed)

@@ -14,6 +14,11 @@
 #error "compile without -ffast-math: it lets the compiler change the order of sums and drop NaN, and so the picture"
 #endif
 
+#if !defined(RELIEF_OPTIONS)
+#error \
+    "compile with the flags that Relief's bits depend on: in CMake link relief::engine, elsewhere `pkg-config --cflags relief`"
+#endif
+
 #if !defined(RELIEF_LANES)
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define RELIEF_LANES 16

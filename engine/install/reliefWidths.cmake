@@ -1,0 +1,23 @@
+# relief_add_executable(NAME FILE...): a program that runs with the widest lanes that the processor has. It is compiled
+# once for each width that is installed, as NAME_lanes4, NAME_lanes8, NAME_lanes16; NAME starts one of them. RELIEF_LANES
+# in the environment chooses. Link its libraries, other than relief's, to each of ${NAME_WIDTHS}.
+function(relief_add_executable name)
+  set(launcher ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/widest.cpp)
+  add_executable(${name} ${launcher})
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  target_compile_definitions(${name} PRIVATE RELIEF_PROGRAMS="." RELIEF_PROGRAM="${name}")
+  set(all "")
+  foreach(width IN LISTS relief_WIDTHS)
+    set(wide ${name}_lanes${width})
+    add_executable(${wide} ${ARGN})
+    target_link_libraries(${wide} PRIVATE relief::check_lanes${width})
+    if(width EQUAL 8)
+      target_compile_options(${wide} PRIVATE -march=x86-64-v3)
+    elseif(width EQUAL 16)
+      target_compile_options(${wide} PRIVATE -march=x86-64-v4)
+    endif()
+    add_dependencies(${name} ${wide})
+    list(APPEND all ${wide})
+  endforeach()
+  set(${name}_WIDTHS ${all} PARENT_SCOPE)
+endfunction()
