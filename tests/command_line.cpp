@@ -125,7 +125,7 @@ TEST_CASE("command line: help at every level, and the list of stages")
     CHECK(run(folder.path, "").out.find("gallery") != std::string::npos);
     CHECK(run(folder.path, "--help").code == 0);
     for (const std::string command :
-         {"list", "render", "gallery", "view", "hash", "explain", "bench", "report", "import-environment"}) {
+         {"list", "render", "gallery", "view", "hash", "explain", "bench", "report", "import-environment", "check"}) {
         const Outcome help = run(folder.path, command + " --help");
         CAPTURE(command);
         CHECK(help.code == 0);

@@ -92,8 +92,7 @@ TEST_CASE("check page: a person reviews one golden of each kind by keys, and acc
     WebDriver browser(folder.path);
     browser.open(folder / "review.html");
     REQUIRE(browser.wait("return document.body.dataset.ready === '0'"));
-    CHECK(browser.text("return document.querySelectorAll('b').length + ''") ==
-          "7");  // no tag of a message
+    CHECK(browser.text("return document.querySelectorAll('b').length + ''") == "7");  // no tag of a message
 
     // First what cannot be compared, then by the number of pixels that differ.
     CHECK(browser.text("return [...document.querySelectorAll('#list span')].map(s => s.textContent).join()") ==
