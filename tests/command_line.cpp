@@ -47,6 +47,8 @@ std::string programOf(const std::string& arguments)
     std::string name = "relief";
     if (arguments.starts_with("import-environment")) {
         name = "relief_import_environment";
+    } else if (arguments.starts_with("check")) {
+        name = "relief_goldens";
     } else if (arguments.starts_with("bench")) {
         name = has("--peer") ? "relief_bench_peer" : has("--stage") ? "relief_bench_stages" : "relief_bench";
     } else if (arguments.starts_with("report")) {
@@ -123,7 +125,7 @@ TEST_CASE("command line: help at every level, and the list of stages")
     CHECK(run(folder.path, "").out.find("gallery") != std::string::npos);
     CHECK(run(folder.path, "--help").code == 0);
     for (const std::string command :
-         {"list", "render", "gallery", "view", "hash", "explain", "bench", "report", "import-environment"}) {
+         {"list", "render", "gallery", "view", "hash", "explain", "bench", "report", "import-environment", "check"}) {
         const Outcome help = run(folder.path, command + " --help");
         CAPTURE(command);
         CHECK(help.code == 0);

@@ -64,7 +64,7 @@ TEST_CASE("golden: a golden of another size fails")
 {
     const TemporaryFolder folder;
     REQUIRE(updateGolden(picture(13, 8), folder / "tall.png"));
-    checkFails(picture(13, 7), folder / "tall.png", folder / "failures", "is 13x8, the picture 13x7");
+    checkFails(picture(13, 7), folder / "tall.png", folder / "failures", "is 13x7 and should be 13x8");
     CHECK(readImage(folder / "failures/tall.actual.png"));
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("golden: one bit in one pixel fails, is named, and is shown eight time
     Framebuffer other = target;
     other.color8()[13 * 2 + 5] ^= 0x000100u;  // green of (5, 2)
     REQUIRE(updateGolden(other, folder / "bit.png"));
-    checkFails(target, folder / "bit.png", folder / "failures", "1 pixels differ\n  (5, 2)");
+    checkFails(target, folder / "bit.png", folder / "failures", "1 pixel differs, the largest difference is 1, 1 lie in one square of 8x8\n  (5, 2)");
     const Expected<ImageFile> difference = readImage(folder / "failures/bit.difference.png");
     REQUIRE(difference);
     const Image8& shown = std::get<Image8>(*difference);

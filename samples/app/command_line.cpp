@@ -59,6 +59,54 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
         ->capture_default_str();
 }
 
+void addCheckCommands(CLI::App& check, CheckOptions& options)
+{
+    check.require_subcommand(1);
+    const auto add = [&](const char* name, const char* meaning) {
+        CLI::App* const command = check.add_subcommand(name, meaning);
+        command->callback([&options, name] { options.what = name; });
+        return command;
+    };
+    const auto addJunit = [&](CLI::App& command) {
+        command.add_option("--junit", options.junit, "Writes what CI services show: JUnit's XML")
+            ->type_name("FILE.xml");
+    };
+
+    CLI::App* command = add("compare", "Compares two pictures: exit code 0 the same, 1 different, 2 no pictures");
+    command->add_option("actual", options.first, "A PNG, JPEG, TGA, BMP, HDR or PFM file")->required();
+    command->add_option("golden", options.second, "What it should be")->required();
+    command
+        ->add_option("--range", options.range,
+                     "What must differ, as it was measured: pixels=40-60,largest=1-2,window8x8=3; default: nothing")
+        ->type_name("RANGE");
+    command->add_option("-o,--output", options.output, "Writes the difference, enlarged")->type_name("FILE.png");
+
+    command = add("folder", "Compares all pictures of two folders: exit code 0 the same, 1 different, 2 no folders");
+    command->add_option("actual", options.first, "The folder of new pictures")->required();
+    command->add_option("golden", options.second, "The folder of goldens, with files of the same names")->required();
+    command
+        ->add_option("--ranges", options.ranges,
+                     "Which pictures must differ, and how much: lines such as a/b.png pixels=40-60 largest=1-2")
+        ->type_name("FILE");
+    command->add_option("--failures", options.failures, "Where records and differences go")->capture_default_str();
+    command->add_flag(
+        "--update", options.update,
+        "Makes the pictures that differ the goldens, and lists them; the exit code is still 1. Refused where "
+        "the environment has CI set");
+    command->add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
+    addJunit(*command);
+
+    command = add("review", "Makes a page of what failed, to accept or reject: one HTML file, which needs no network");
+    command->add_option("failures", options.failures, "The folder that the tests left")->capture_default_str();
+    command->add_option("-o,--output", options.output, "The page; default: review.html")->type_name("FILE.html");
+    addJunit(*command);
+
+    command = add("accept", "Makes pictures the goldens, as the list says that the review page saved");
+    command->add_option("list", options.first, "The list")->required();
+    command->add_option("--failures", options.second, "The folder that the tests left; default: the one of the page");
+    command->add_option("--goldens", options.goldens, "The folder of the goldens, where the tests ran elsewhere");
+}
+
 void addCompilerOption(CLI::App& command, std::string& compiler)
 {
     command.add_option("--compiler", compiler, "That compiles stages while the program runs; default: the fastest")
@@ -419,6 +467,16 @@ int runProgram(int argc, char** argv, const Program& program)
     addImportEnvironmentOptions(*command, environmentOptions);
     command->callback([&] { run("import-environment", program.importEnvironment, environmentOptions); });
 
+    command = app.add_subcommand("check", "Golden tests: compares pictures of any program, and reviews what differs");
+    CheckOptions checkOptions;
+    int code = 0;
+    addCheckCommands(*command, checkOptions);
+    command->callback([&] {
+        const Expected<int> checked = program.check != nullptr ? program.check(checkOptions) : elsewhere("check");
+        if (checked) code = *checked;
+        if (!checked) result = tl::unexpected(checked.error());
+    });
+
     command = app.add_subcommand("report", "Measures what a chapter claims, and writes it down: text, table and plot");
     ReportOptions reportOptions;
     addReportOptions(*command, reportOptions);
@@ -437,7 +495,7 @@ int runProgram(int argc, char** argv, const Program& program)
         std::fprintf(stderr, "relief: %s\n", result.error().message.c_str());
         return 2;
     }
-    return 0;
+    return code;
 }
 
 }  // namespace relief::samples

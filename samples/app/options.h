@@ -85,6 +85,18 @@ struct ImportEnvironmentOptions
     int size = 128, samples = 1024, threads = 0;
 };
 
+// What `check` compares, and where what it finds goes.
+struct CheckOptions
+{
+    std::string what;           // compare, folder, review or accept
+    std::string first, second;  // compare: two pictures; folder: pictures and goldens; review: records; accept: a list
+    std::string range, ranges;  // compare: what may differ; folder: a file with a line for each picture
+    std::string failures = "golden_failures", goldens;
+    std::string output, junit;
+    bool update = false;
+    int threads = 0;
+};
+
 // What `report` measures, and where the files go.
 struct ReportOptions
 {

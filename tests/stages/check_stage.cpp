@@ -1,11 +1,12 @@
 // One stage against its golden and its hash: `check_stage golden 1.06`, `check_stage hash 1.06`. The picture must be
-// the same byte for byte; the float colours and depths must have the committed hash for every number of threads and
-// every tile size. The number of lanes, the compiler and the build type vary with the build: each is held to the same
-// hash.
+// the same byte for byte (with --update it becomes the golden; `relief check review golden_failures` shows both); the
+// float colours and depths must have the committed hash for every number of threads and every tile size. The number of
+// lanes, the compiler and the build type vary with the build: each is held to the same hash.
 #include <cstdio>
 #include <fstream>
 
 #include "golden_stage.h"
+#include "relief/check/golden_run.h"
 #include "relief/leave_out.h"
 
 namespace {
@@ -23,12 +24,14 @@ Expected<std::string> expectedHash(const Stage& stage)
     return fail(hashesPath().string() + ": has no hash of " + stage.id + "; update_goldens");
 }
 
-Expected<void> checkPicture(const Stage& stage)
+Expected<void> checkPicture(const Stage& stage, bool update)
 {
     const Expected<Framebuffer> target = renderForGolden(stage, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
-    return checkGolden(*target, goldenPath(stage), std::filesystem::current_path() / "golden_failures")
-        .map_error([](const Error& error) { return Error{error.message + " (of all stages: update_goldens)"}; });
+    GoldenRun run({.goldens = RELIEF_GOLDEN_FOLDER, .failures = "golden_failures", .update = update});
+    return run.check(stage.folder + "/" + stage.stem, *target).map_error([](const Error& error) {
+        return Error{error.message + " (of all stages: update_goldens)"};
+    });
 }
 
 // All numbers of threads with all tile sizes; in slow builds, few threads and many, small tiles and large ones.
@@ -65,16 +68,19 @@ Expected<void> checkHash(const Stage& stage)
 
 int main(int argc, char** argv)
 {
+    const Expected<bool> update = takeUpdateFlag(argc, argv);
     const std::string what = argc == 3 ? argv[1] : "";
+    if (!update) std::fprintf(stderr, "%s\n", update.error().message.c_str());
+    if (!update) return 2;
     if (what != "golden" && what != "hash") {
-        std::fprintf(stderr, "usage: check_stage golden|hash STAGE\n");
+        std::fprintf(stderr, "usage: check_stage golden|hash STAGE [--update]\n");
         return 2;
     }
     const Expected<void> generic = leavesOut::checkGeneric(leavesOut::generic());
     const Expected<const Stage*> stage = findStage(argv[2]);
     const Expected<void> result = !generic           ? generic
                                   : !stage           ? Expected<void>(tl::unexpected(stage.error()))
-                                  : what == "golden" ? checkPicture(**stage)
+                                  : what == "golden" ? checkPicture(**stage, *update)
                                                      : checkHash(**stage);
     if (result) return 0;
     std::fprintf(stderr, "%s\n", result.error().message.c_str());

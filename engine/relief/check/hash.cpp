@@ -11,6 +11,13 @@ std::uint64_t hashOf(const Framebuffer& target)
     return hash;
 }
 
+std::uint64_t hashOf(std::span<const std::uint8_t> bytes)
+{
+    std::uint64_t hash = 14695981039346656037ull;
+    for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
+    return hash;
+}
+
 std::string hexadecimal(std::uint64_t hash)
 {
     std::string digits(16, '0');
