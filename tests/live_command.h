@@ -26,10 +26,10 @@ inline std::string contents(const std::filesystem::path& path)
 }
 
 inline Outcome runCommand(const TemporaryFolder& folder, const std::string& arguments,
-                          const std::string& program = "relief_view")
+                          const std::string& program = "relief_view", const std::string& input = "/dev/null")
 {
     const std::string command = "cd '" + folder.path.string() + "' && '" RELIEF_PROGRAMS "/" + program + "' " +
-                                arguments + " >out.txt 2>err.txt </dev/null";
+                                arguments + " >out.txt 2>err.txt <'" + input + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out.txt"), contents(folder / "err.txt")};
 }

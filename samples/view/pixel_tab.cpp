@@ -85,7 +85,9 @@ void Interface::currentStep(const PixelStep& its, int pixel)
         for (int i = 0; i < 4; ++i) {
             ImGui::TableNextColumn();
             ImGui::PushStyleColor(ImGuiCol_Text, i == pixel ? kOrange : kDim);
-            ImGui::TextWrapped("%s", its.values[static_cast<std::size_t>(i)].c_str());
+            std::string lines = its.values[static_cast<std::size_t>(i)];  // a component each
+            for (std::size_t at; (at = lines.find("  ")) != std::string::npos;) lines.replace(at, 2, "\n");
+            ImGui::TextUnformatted(lines.c_str());
             ImGui::PopStyleColor();
         }
         ImGui::EndTable();

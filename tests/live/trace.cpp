@@ -282,6 +282,28 @@ TEST_CASE("trace: JSON, a page, and a shader of one's own")
     CHECK(runCommand(folder, what + " --against 1.09").out.find("My shader") != std::string::npos);
 }
 
+TEST_CASE("trace: pixels from standard input, each answered by a line")
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "pixels.txt") << "20,10\n21,10\n64,0\nhere\n20,10\n";
+    const Outcome all = runCommand(folder, "trace 1.12 --size 64x36 --pixel -", "relief_view", "pixels.txt");
+    REQUIRE_MESSAGE(all.code == 0, all.err);
+    std::istringstream lines(all.out);
+    std::vector<nlohmann::json> answers;
+    for (std::string line; std::getline(lines, line);) answers.push_back(nlohmann::json::parse(line));
+    REQUIRE(answers.size() == 5);
+    for (const int x : {20, 21}) {
+        const Outcome one = runCommand(folder, "trace 1.12 --size 64x36 --json --pixel " + std::to_string(x) + ",10");
+        const nlohmann::json alone = nlohmann::json::parse(one.out);
+        nlohmann::json& answer = answers[static_cast<std::size_t>(x - 20)];
+        CHECK(answer["stored"] == alone["stored"]);
+        CHECK(answer["draws"] == alone["draws"]);
+    }
+    CHECK(answers[2]["error"].get<std::string>().find("there is no pixel 64,0") != std::string::npos);
+    CHECK(answers[3]["error"].get<std::string>().find("write X,Y") != std::string::npos);
+    CHECK(answers[4]["draws"] == answers[0]["draws"]);
+}
+
 TEST_CASE("trace: where a NaN comes from, and a vertex")
 {
     const TemporaryFolder folder;
