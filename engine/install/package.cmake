@@ -1,19 +1,26 @@
-# What `./relief package` gives cpack: builds of all widths in one package. The narrowest is installed last (it is what
-# relief::engine means).
-#   cpack --config engine/install/package.cmake -D SOURCE=... -D BUILD=... -D VERSION=... -D "PRESETS=package8;package4"
+# What `./relief package` gives cpack: the builds package16, package8 and package4 of build/, as far as they are there, in
+# one package. The narrowest is installed last (it is what relief::engine means).
+set(source ${CMAKE_CURRENT_LIST_DIR}/../..)
+file(STRINGS ${source}/CMakeLists.txt version REGEX "^project\\(relief VERSION ")
+string(REGEX MATCH "[0-9.]+" version "${version}")
 set(CPACK_PACKAGE_NAME relief)
-set(CPACK_PACKAGE_VERSION ${VERSION})
+set(CPACK_PACKAGE_VERSION ${version})
 set(CPACK_PACKAGE_VENDOR "The Relief authors")
 set(CPACK_PACKAGE_CONTACT "The Relief authors <relief@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Software rasterizer with the same bits on every machine")
 set(CPACK_PACKAGE_DESCRIPTION "Runs HLSL-like C++ programs on all cores, several pixels at a time, for pixel tests that
 compare exactly. The program relief, and the library with its headers.")
+cmake_host_system_information(RESULT machine QUERY OS_PLATFORM)
+set(CPACK_PACKAGE_FILE_NAME relief-${version}-${machine})
+set(CPACK_CMAKE_GENERATOR Ninja)
 set(CPACK_GENERATOR "DEB;TGZ")
-set(CPACK_PACKAGE_DIRECTORY ${BUILD})
+set(CPACK_PACKAGE_DIRECTORY ${source}/build)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_CMAKE_PROJECTS "")
-foreach(preset IN LISTS PRESETS)
-  list(APPEND CPACK_INSTALL_CMAKE_PROJECTS ${BUILD}/${preset} relief ALL /)
+foreach(preset package16 package8 package4)
+  if(EXISTS ${source}/build/${preset}/build.ninja)
+    list(APPEND CPACK_INSTALL_CMAKE_PROJECTS ${source}/build/${preset} relief ALL /)
+  endif()
 endforeach()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)

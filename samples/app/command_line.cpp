@@ -427,7 +427,9 @@ int runProgram(int argc, char** argv, const Program& program)
     addInputOptions(*command, traceOptions.render);
     addTargetOptions(*command, traceOptions.render);
     CLI::Option_group* const what = command->add_option_group("one of");
-    what->add_option("--pixel", traceOptions.pixel, "Which pixel, counted from the upper left: 480,270")
+    what->add_option("--pixel", traceOptions.pixel,
+                     "Which pixel, counted from the upper left: 480,270. -: from standard input, one a line, each "
+                     "answered by a line of JSON")
         ->type_name("X,Y");
     what->add_option("--vertex", traceOptions.vertex, "A vertex of the mesh instead: its vertex program, line by line")
         ->check(CLI::NonNegativeNumber);

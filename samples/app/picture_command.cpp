@@ -57,9 +57,10 @@ void addPicture(std::string& command, const live::Look& look)
 
 }  // namespace
 
-std::string renderCommand(const live::StageSource& source, const live::Look& look, const std::string& output)
+std::string renderCommand(const std::string& program, const live::StageSource& source, const live::Look& look,
+                          const std::string& output)
 {
-    std::string command = "./relief render " + nameOf(source);
+    std::string command = word(program) + " render " + nameOf(source);
     addPicture(command, look);
     if (!look.show.empty()) add(command, "--show", look.show);
     add(command, "-o", output);

@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cstdio>
+#include <iostream>
+#include <string>
 
 #include "picture_command.h"
 #include "prepare.h"
@@ -109,34 +111,55 @@ Expected<void> tellFirstNan(const RenderOptions& options)
     return {};
 }
 
-// What is told of a stage's pixel, and the picture that it is in: the plain program's.
-struct Told
+// Tells of one pixel after the other of a stage, and checks each against the plain program's picture.
+struct PixelTelling
 {
-    PixelTrace trace;
-    Subject subject;
-    Recorded picture;
+    Telling telling;
+    Recorded picture;  // the plain program's
+
+    static Expected<PixelTelling> record(const RenderOptions& options, const std::string& words)
+    {
+        Expected<Telling> telling = Telling::record(options, words);
+        if (!telling) return tl::unexpected(telling.error());
+        const Framebuffer& target = *telling->recorded.target;
+        Expected<Recorded> plain = Recorded::record(*telling->stage.plain, options, {target.width(), target.height()});
+        if (!plain) return tl::unexpected(plain.error());
+        plain->frame->run();
+        return PixelTelling{std::move(*telling), std::move(*plain)};
+    }
+
+    // `text`: "X,Y".
+    Expected<PixelTrace> trace(const std::string& text) const
+    {
+        const Expected<Pixel> pixel = parsePixel(text);
+        if (!pixel) return tl::unexpected(pixel.error());
+        const Expected<PixelTrace> trace = tracePixel(*telling.recorded.frame, pixel->x, pixel->y);
+        if (!trace) return fail("--pixel " + text + ": " + trace.error().message);
+        const auto at = static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(trace->width) +
+                        static_cast<std::size_t>(pixel->x);
+        if (picture.target->color8()[at] != trace->storedWords[0]) {
+            return fail(
+                "--pixel " + text +
+                ": the trace does not end at the picture's pixel; this is a defect of Relief, please report it");
+        }
+        return trace;
+    }
 };
 
-Expected<Told> toldOf(const RenderOptions& options, const std::string& pixelText)
+// Pixels from standard input, one "X,Y" a line; the answer to each is a line of JSON: its life, or {"error": "..."}.
+Expected<void> answerPixels(const RenderOptions& options)
 {
-    const Expected<Pixel> pixel = parsePixel(pixelText);
-    if (!pixel) return tl::unexpected(pixel.error());
-    const Expected<Telling> telling = Telling::record(options, "--pixel " + pixelText);
+    const Expected<PixelTelling> telling = PixelTelling::record(options, "--pixel -");
     if (!telling) return tl::unexpected(telling.error());
-    const Expected<PixelTrace> trace = tracePixel(*telling->recorded.frame, pixel->x, pixel->y);
-    if (!trace) return fail("--pixel " + pixelText + ": " + trace.error().message);
-    const int width = telling->recorded.target->width();
-    Expected<Recorded> plain =
-        Recorded::record(*telling->stage.plain, options, {width, telling->recorded.target->height()});
-    if (!plain) return tl::unexpected(plain.error());
-    plain->frame->run();
-    const auto at =
-        static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(pixel->x);
-    if (plain->target->color8()[at] != trace->storedWords[0]) {
-        return fail("--pixel " + pixelText +
-                    ": the trace does not end at the picture's pixel; this is a defect of Relief, please report it");
+    std::string line;
+    while (std::getline(std::cin, line)) {
+        const Expected<PixelTrace> trace = telling->trace(line);
+        std::fputs(
+            trace ? toJson(*trace, telling->telling.subject, true).c_str() : errorToJson(trace.error().message).c_str(),
+            stdout);
+        std::fflush(stdout);
     }
-    return Told{*trace, telling->subject, std::move(*plain)};
+    return {};
 }
 
 }  // namespace
@@ -152,20 +175,29 @@ Expected<void> traceStage(const TraceOptions& options)
 {
     if (options.vertex >= 0) return tellVertex(options);
     if (options.firstNan) return tellFirstNan(options.render);
-    const Expected<Told> told = toldOf(options.render, options.pixel);
-    if (!told) return tl::unexpected(told.error());
+    if (options.pixel == "-") return answerPixels(options.render);
+    if (const Expected<Pixel> pixel = parsePixel(options.pixel); !pixel) return tl::unexpected(pixel.error());
+    const auto recorded = [&](const std::string& stage) {
+        RenderOptions render = options.render;
+        render.stage = stage;
+        return PixelTelling::record(render, "--pixel " + options.pixel);
+    };
+    const Expected<PixelTelling> telling = recorded(options.render.stage);
+    if (!telling) return tl::unexpected(telling.error());
+    const Expected<PixelTrace> trace = telling->trace(options.pixel);
+    if (!trace) return tl::unexpected(trace.error());
+    const Subject& subject = telling->telling.subject;
     if (!options.against.empty()) {
-        RenderOptions other = options.render;
-        other.stage = options.against;
-        const Expected<Told> second = toldOf(other, options.pixel);
+        const Expected<PixelTelling> other = recorded(options.against);
+        if (!other) return tl::unexpected(other.error());
+        const Expected<PixelTrace> second = other->trace(options.pixel);
         if (!second) return tl::unexpected(second.error());
-        const std::string difference =
-            firstDifference(tell(told->trace, told->subject), tell(second->trace, second->subject));
+        const std::string difference = firstDifference(tell(*trace, subject), tell(*second, other->telling.subject));
         std::printf("%s\n", difference.empty() ? "the traces are the same" : difference.c_str());
         return {};
     }
     if (!options.html.empty()) {
-        const Expected<std::string> page = toHtml(told->trace, told->subject, told->picture.target->color8());
+        const Expected<std::string> page = toHtml(*trace, subject, telling->picture.target->color8());
         if (!page) return tl::unexpected(page.error());
         const Expected<void> written =
             writeFileAtomically(options.html, {reinterpret_cast<const std::uint8_t*>(page->data()), page->size()});
@@ -173,8 +205,7 @@ Expected<void> traceStage(const TraceOptions& options)
         std::printf("%s\n", options.html.c_str());
         return {};
     }
-    std::fputs(options.json ? toJson(told->trace, told->subject).c_str()
-                            : toText(tell(told->trace, told->subject), options.all).c_str(),
+    std::fputs(options.json ? toJson(*trace, subject).c_str() : toText(tell(*trace, subject), options.all).c_str(),
                stdout);
     return {};
 }

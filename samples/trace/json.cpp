@@ -198,7 +198,7 @@ Json jsonOf(const t::PieceTrace& p, const Subject& subject)
 
 }  // namespace
 
-std::string toJson(const PixelTrace& trace, const Subject& subject)
+std::string toJson(const PixelTrace& trace, const Subject& subject, bool inOneLine)
 {
     Json draws = Json::array();
     for (const t::DrawTrace& draw : trace.draws) {
@@ -226,7 +226,12 @@ std::string toJson(const PixelTrace& trace, const Subject& subject)
                       {"samples", trace.sampleCount},
                       {"stored", trace.stored},
                       {"draws", draws}};
-    return all.dump(1) + "\n";
+    return all.dump(inOneLine ? -1 : 1) + "\n";
+}
+
+std::string errorToJson(const std::string& message)
+{
+    return Json({{"error", message}}).dump() + "\n";
 }
 
 }  // namespace relief::samples::trace

@@ -56,7 +56,9 @@ std::string toText(const Node& node, bool all);
 Expected<std::string> toHtml(const PixelTrace& trace, const Subject& subject, std::span<const std::uint32_t> picture);
 
 // The schema is in docs/life_of_a_pixel.md.
-std::string toJson(const PixelTrace& trace, const Subject& subject);
+std::string toJson(const PixelTrace& trace, const Subject& subject, bool inOneLine = false);
+
+std::string errorToJson(const std::string& message);  // a line
 
 // The first place where two traces differ, in words; empty: nowhere.
 std::string firstDifference(const Node& a, const Node& b);

@@ -8,7 +8,8 @@ namespace relief::samples {
 
 namespace {
 
-constexpr int kRest = 3;  // frames after an event, until what Dear ImGui shows of it no longer changes
+constexpr int kRest = 4;  // frames after an event, until what Dear ImGui shows of it no longer changes: a tab, chosen
+                          // by a button, has its contents in the third and their size in the fourth
 
 }  // namespace
 
@@ -45,9 +46,7 @@ bool Application::step()
         redraws = kRest;
     }
     if (viewer->update()) redraws = kRest;
-    const int telling = interface->descriptor();
-    interface->update();
-    if (interface->descriptor() != telling) redraws = kRest;
+    if (interface->update()) redraws = kRest;
     if (redraws == 0) return false;
     --redraws;
     window.setTitle("Relief: " + viewer->name());
@@ -61,7 +60,9 @@ bool Application::step()
 void Application::wait()
 {
     std::vector<int> descriptors = viewer->descriptors();
-    if (interface->descriptor() >= 0) descriptors.push_back(interface->descriptor());
+    for (const int descriptor : interface->descriptors()) {
+        if (descriptor >= 0) descriptors.push_back(descriptor);
+    }
     alarm->arm(std::move(descriptors), viewer->patience());
     SDL_WaitEvent(nullptr);
 }

@@ -70,11 +70,20 @@ void Interface::press(int key, bool control, bool shift)
         case SDLK_k:
             viewer.keepSnapshot();
             break;
-        case SDLK_LEFT:
-            viewer.step(-1);
+        case SDLK_F10:
+            step = std::max(step + (shift ? -1 : 1), 0);
             break;
+        case SDLK_LEFT:
         case SDLK_RIGHT:
-            viewer.step(1);
+            if (shift) {
+                moveKept(key == SDLK_LEFT ? -1 : 1, 0);
+            } else {
+                viewer.step(key == SDLK_LEFT ? -1 : 1);
+            }
+            break;
+        case SDLK_UP:
+        case SDLK_DOWN:
+            if (shift) moveKept(0, key == SDLK_UP ? -1 : 1);
             break;
         case SDLK_r:
             if (shift) {
@@ -142,6 +151,8 @@ void Interface::help()
         {"Ctrl+C", "copy the command that renders this picture"},
         {"Ctrl+S", "save the picture"},
         {"Tab", "hide and show the panel"},
+        {"F10, Shift+F10", "the kept pixel's next value, and the one before"},
+        {"Shift and an arrow", "the pixel beside it"},
         {"F11", "full screen, and back"},
         {"Q, Escape", "close"},
         {"drop a file", "a picture or a mesh takes the place of the stage's"},

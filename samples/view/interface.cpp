@@ -84,25 +84,20 @@ void Interface::draw()
     dialogs();
 }
 
-void Interface::update()
+bool Interface::update()
 {
     if (newScale) window.setScale(*newScale);
     newScale.reset();
-    if (const std::optional<Expected<std::string>> told = life.poll()) {
-        if (*told) {
-            openPage(**told);
-        } else {
-            notice = told->error().message;
-        }
-    }
-    if (!turn || dialog != Dialog::recording) return;
+    const bool news = updatePixel();
+    if (!turn || dialog != Dialog::recording) return news;
     const Expected<void> written = turn->update(viewer);
-    if (written && !turn->done()) return;
+    if (written && !turn->done()) return news;
     notice = written ? "Wrote " + std::to_string(turn->frames) + " pictures into " + turnFolder : "";
     if (!written) viewer.refusal = written.error().message;
     turn->end(viewer);
     turn.reset();
     dialog = Dialog::none;
+    return true;
 }
 
 void Interface::take(const SDL_Event& event)

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "view/pixel_life.h"
+#include "view/errand.h"
+#include "view/pixel_teller.h"
 #include "view/turn.h"
 #include "view/viewer.h"
 #include "view/window.h"
@@ -21,12 +22,15 @@ public:
     Interface(Viewer& viewer, Window& window);
 
     void take(const SDL_Event& event);  // keys and dropped files
-    void update();                      // after Viewer::update()
+    bool update();                      // after Viewer::update(); true: there is news
     void draw();                        // between Window's beginFrame() and endFrame()
     bool wantsMore() const { return thumbnailsWanted; }
 
-    // Call update() when it is readable; -1: nothing.
-    int descriptor() const { return life.descriptor(); }
+    // Call update() when one of them is readable; -1: nothing.
+    std::array<int, 3> descriptors() const
+    {
+        return {lifePage.descriptor(), everywhere.descriptor(), teller.descriptor()};
+    }
 
     bool running = true;
 
@@ -36,7 +40,8 @@ public:
         float left, top, right, bottom;
     };
     std::map<std::string, Place> places;
-    std::string copied;  // to the clipboard
+    std::string copied;       // to the clipboard
+    PixelStep shown() const;  // of the kept pixel's life; empty where none is told
 
 private:
     enum class Dialog
@@ -48,7 +53,7 @@ private:
         recording,
         drop
     };
-    static constexpr int kTabs = 2;
+    static constexpr int kTabs = 3;
 
     void place(const std::string& name);
     bool button(const char* label, const std::string& name, const char* meaning = nullptr);
@@ -72,6 +77,14 @@ private:
     // stages_tab.cpp
     void stagesTab();
     void thumbnail(const live::StageSource& source, float width, float height);
+
+    // pixel_tab.cpp
+    void pixelTab();
+    void currentStep(const PixelStep& its, int pixel);
+    void pointedPixel() const;
+    void moveKept(int x, int y);
+    void tellPage();
+    bool updatePixel();
 
     // toolbar.cpp
     void toolbar();
@@ -119,7 +132,12 @@ private:
     bool magnifying = false, draggingDivider = false;
     int magnification = 16;
     std::optional<Viewer::Point> pointed;  // the pixel below the mouse
-    PixelLife life;                        // of the kept pixel
+
+    PixelTeller teller;           // of the kept pixel
+    Errand lifePage, everywhere;  // its life as a page; a value of it in every pixel
+    std::string shownName;        // of that value
+    bool pixelTabShown = false;
+    int step = 0, shownStep = -1;  // of the pixel's values, from 0
 
     Dialog dialog = Dialog::none;
     std::string dialogProblem, savePath, turnFolder;

@@ -56,6 +56,11 @@ void Interface::panel()
     };
     tab(0, "This stage", "tab.stage", [this] { stageTab(); });
     tab(1, "All stages", "tab.stages", [this] { stagesTab(); });
+    pixelTabShown = false;
+    tab(2, "A pixel", "tab.pixel", [this] {
+        pixelTabShown = true;
+        pixelTab();
+    });
     chosenTab = -1;
     ImGui::EndTabBar();
 }

@@ -198,16 +198,16 @@ void Interface::status()
         place("kept");
         tooltip("The kept pixel as it is stored, 0 to 255, and decoded, linear light");
         ImGui::SameLine();
-        if (button("its life", "kept.life", "Tells why it has its colour, from the triangles to the byte, on a page")) {
-            const Expected<void> begun =
-                life.tell(viewer.session().source(), viewer.look(), viewer.kept->x, viewer.kept->y);
-            notice = begun ? "telling the pixel's life ..." : begun.error().message;
+        if (button("its life", "kept.life", "Tells why it has its colour, line by line")) {
+            panelShown = true;
+            chosenTab = 2;
         }
         ImGui::SameLine();
         if (button("\xc3\x97", "kept.release", "Lets the pixel go")) viewer.kept.reset();
     } else if (pointed) {
         pixel("", *pointed);
     }
+    pointedPixel();
     std::string text = notice;
     if (viewer.session().compiling()) text = "compiling ...";
     if (text.empty()) return;

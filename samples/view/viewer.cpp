@@ -212,7 +212,7 @@ std::vector<Slot> Viewer::slots() const
 
 std::string Viewer::command(const std::string& output) const
 {
-    return renderCommand(current->source(), wanted, output);
+    return renderCommand("./relief", current->source(), wanted, output);
 }
 
 // --- the sessions ---

@@ -321,7 +321,7 @@ TEST_CASE("view: a stage's page is opened")
     CHECK(pages.opened().ends_with("/docs/bumpiness/12_bump_scale.md"));
 }
 
-TEST_CASE("view: the life of a kept pixel is told on a page")
+TEST_CASE("view: the life of a kept pixel is told line by line, and on a page")
 {
     const PageOpener pages;
     const Own own;
@@ -335,6 +335,43 @@ TEST_CASE("view: the life of a kept pixel is told on a page")
     hands.key(SDLK_m);
     REQUIRE(hands.viewer().kept);
     hands.click("kept.life");
+    REQUIRE(hands.until([&] { return hands.has("step.on"); }));
+    CHECK(hands.has("step.0"));
+    const Viewer::Point first = *hands.viewer().kept;
+
+    // Forwards, backwards, to the end: what is shown is the list's row, which the tests of the trace hold to the bits.
+    hands.click("step.on");
+    hands.key(SDLK_F10);
+    hands.key(SDLK_F10, KMOD_LSHIFT);
+    hands.click("step.last");
+    CHECK_FALSE(hands.interface().shown().name.empty());
+    hands.click("step.first");
+    const PixelStep begin = hands.interface().shown();
+    CHECK(begin.line > 0);
+    CHECK_FALSE(begin.code.empty());
+    hands.click("step.on");
+    CHECK(hands.interface().shown().line >= begin.line);
+    hands.click("step.back");
+    CHECK(hands.interface().shown().name == begin.name);
+
+    // A neighbour, by button and by key: the same process tells it.
+    hands.click("pixel.right");
+    hands.key(SDLK_DOWN, KMOD_LSHIFT);
+    CHECK(hands.viewer().kept->x == first.x + 1);
+    CHECK(hands.viewer().kept->y == first.y + 1);
+    REQUIRE(hands.until([&] { return hands.has("pixel.summary"); }));
+
+    // A value in every pixel, beside the picture.
+    while (hands.interface().shown().name != "lambert") {
+        REQUIRE(hands.has("step.on"));
+        hands.click("step.on");
+    }
+    hands.click("step.everywhere");
+    REQUIRE(hands.until([&] { return hands.viewer().besideKind() == Viewer::Beside::snapshot; }));
+    CHECK(hands.viewer().besideName().starts_with("lambert@"));
+    CHECK(hands.viewer().besidePicture().sameSize(hands.viewer().picture()));
+
+    hands.click("pixel.page");
     REQUIRE(hands.until([&] { return pages.opened().ends_with(".html"); }));
     const std::string path = pages.opened().substr(std::string("file://").size());
     std::stringstream page;

@@ -13,12 +13,12 @@ namespace relief {
 // of instances, integers.
 struct VertexStream
 {
-    std::string semantic;                // as in HLSL: "TEXCOORD", "COLOR"
-    int index = 0;                       // TEXCOORD<index>
-    int components = 1;                  // 1 ... 4
-    std::vector<float> floats;           // `components` for each vertex
-    std::vector<std::int32_t> integers;  // in place of them, for Int, int2 ... int4
-    bool perInstance = false;            // an element for each instance of a draw, not for each vertex
+    std::string semantic = {};                // as in HLSL: "TEXCOORD", "COLOR"
+    int index = 0;                            // TEXCOORD<index>
+    int components = 1;                       // 1 ... 4
+    std::vector<float> floats = {};           // `components` for each vertex
+    std::vector<std::int32_t> integers = {};  // in place of them, for Int, int2 ... int4
+    bool perInstance = false;                 // an element for each instance of a draw, not for each vertex
 };
 
 // A stream as a draw reads it. It refers to the mesh.
