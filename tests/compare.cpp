@@ -16,7 +16,7 @@ TEST_CASE("compare: equal pictures are the same")
     const Comparison result = compare(5, 3, picture, picture);
     CHECK(result.same());
     CHECK(result.first.empty());
-    for (std::size_t i = 0; i < result.amplified.size(); ++i) CHECK(result.amplified[i] == (i % 4 == 3 ? 255 : 0));
+    CHECK(result.amplified.empty());
 }
 
 TEST_CASE("compare: every differing pixel counts once, the first ten are named row by row")

@@ -79,7 +79,8 @@ void addCheckCommands(CLI::App& check, CheckOptions& options)
         ->add_option("--range", options.range,
                      "What must differ, as it was measured: pixels=40-60,largest=1-2,window8x8=3; default: nothing")
         ->type_name("RANGE");
-    command->add_option("-o,--output", options.output, "Writes the difference, enlarged")->type_name("FILE.png");
+    command->add_option("-o,--output", options.output, "Writes the difference, enlarged, where there is one")
+        ->type_name("FILE.png");
 
     command = add("folder", "Compares all pictures of two folders: exit code 0 the same, 1 different, 2 no folders");
     command->add_option("actual", options.first, "The folder of new pictures")->required();

@@ -27,7 +27,7 @@ Expected<int> compareFiles(const CheckOptions& options)
         std::printf("%s: %s\n", options.first.c_str(), comparison.error().message.c_str());
         return 1;
     }
-    if (!options.output.empty()) {
+    if (!options.output.empty() && !comparison->same()) {
         const int width = std::visit([](const auto& p) { return p.width; }, *actual);
         const int height = std::visit([](const auto& p) { return p.height; }, *actual);
         const Expected<void> written = writePng(options.output, width, height, comparison->amplified);

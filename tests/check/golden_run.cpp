@@ -70,7 +70,7 @@ TEST_CASE("golden run: names of tests become names of files")
     CHECK(goldenNameOf("") == "_");
 }
 
-TEST_CASE("golden run: a missing golden fails and leaves a candidate; --update takes it and fails; then it passes")
+TEST_CASE("golden run: a missing golden fails and leaves a candidate, --update takes it and fails, then it passes")
 {
     const TemporaryFolder folder;
     const Framebuffer target = filled(0xff102030u);

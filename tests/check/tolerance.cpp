@@ -157,7 +157,7 @@ TEST_CASE("check: a damaged PNG is an error or a picture, and a comparison stays
     REQUIRE(png);
     std::mt19937 random(7);
     int pictures = 0, errors = 0;
-    for (int trial = 0; trial < 3000; ++trial) {
+    for (int trial = 0; trial < 1000; ++trial) {
         std::vector<std::uint8_t> bytes = *png;
         for (unsigned k = 0; k <= random() % 4; ++k)
             bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
@@ -173,6 +173,6 @@ TEST_CASE("check: a damaged PNG is an error or a picture, and a comparison stays
                                           ImageFile(golden), file);
         CHECK(record.passes() == (file && sameAs(*file, golden)));
     }
-    CHECK(pictures > 20);
-    CHECK(errors > 1000);
+    CHECK(pictures > 5);
+    CHECK(errors > 300);
 }

@@ -73,11 +73,11 @@ Comparison compareChannels(int width, int height, std::span<const Channel> actua
         return pixel;
     };
     Comparison result;
-    result.amplified.resize(count * 4);
-    for (std::size_t at = 3; at < result.amplified.size(); at += 4) result.amplified[at] = 255;
     if (shorter >= count * 4 &&
         (count == 0 || std::memcmp(actual.data(), expected.data(), count * 4 * sizeof(Channel)) == 0))
         return result;
+    result.amplified.resize(count * 4);
+    for (std::size_t at = 3; at < result.amplified.size(); at += 4) result.amplified[at] = 255;
 
     std::vector<std::uint8_t> marks(count, 0);
     for (std::size_t number = 0; number < count; ++number) {

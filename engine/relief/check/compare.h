@@ -49,7 +49,7 @@ struct Comparison
     std::uint64_t window8x8 = 0;          // the most that differ in any square of 8x8 pixels
     std::vector<PixelDifference> first;   // the first ten of them, row by row
     std::vector<std::uint8_t> amplified;  // RGBA, opaque: 8 times each channel's difference; of 16 bits and floats 16
-                                          // for every doubling of it
+                                          // for every doubling of it. Empty where nothing differs
 
     bool same() const { return differing == 0; }
 

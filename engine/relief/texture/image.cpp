@@ -64,7 +64,7 @@ int readSome(void* user, char* data, int size)
     if (!source.smallBuffer) source.smallBuffer = data;  // stb's first read fills its small buffer
     const std::size_t wanted = size > 0 ? static_cast<std::size_t>(size) : 0;
     const std::size_t given = std::min(wanted, source.bytes.size() - source.position);
-    std::memcpy(data, source.bytes.data() + source.position, given);
+    if (given > 0) std::memcpy(data, source.bytes.data() + source.position, given);  // no bytes have no address
     source.position += given;
     const bool tooFew = data == source.smallBuffer ? given == 0 : given < wanted;
     source.truncated = source.truncated || tooFew;
