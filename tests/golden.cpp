@@ -75,7 +75,8 @@ TEST_CASE("golden: one bit in one pixel fails, is named, and is shown eight time
     Framebuffer other = target;
     other.color8()[13 * 2 + 5] ^= 0x000100u;  // green of (5, 2)
     REQUIRE(updateGolden(other, folder / "bit.png"));
-    checkFails(target, folder / "bit.png", folder / "failures", "1 pixel differs, the largest difference is 1, 1 lie in one square of 8x8\n  (5, 2)");
+    checkFails(target, folder / "bit.png", folder / "failures",
+               "1 pixel differs, the largest difference is 1, 1 lie in one square of 8x8\n  (5, 2)");
     const Expected<ImageFile> difference = readImage(folder / "failures/bit.difference.png");
     REQUIRE(difference);
     const Image8& shown = std::get<Image8>(*difference);

@@ -27,7 +27,10 @@ int main()
     Frame frame(target);
     frame.clear({0, 0, 0, 1});
     const Expected<void> drawn = frame.draw(
-        mesh, [](VertexData v) { return Interpolators{v.position, v.color}; },
+        mesh,
+        [](VertexData v) {
+            return Interpolators{v.position, v.color};
+        },
         [](Interpolators i) { return pow(i.color, float4(0.7f)); });
     if (!drawn) {
         std::fprintf(stderr, "%s\n", drawn.error().message.c_str());

@@ -21,10 +21,10 @@ struct Mesh
 {
     std::string name = {};
     std::vector<glm::vec3> positions = {};
-    std::vector<glm::vec3> normals = {};   // as many as positions, unit length
-    std::vector<glm::vec2> uvs = {};       // as many as positions or none; (0,0) is the picture's lower left
-    std::vector<glm::vec4> tangents = {};  // as many as positions or none; xyz along +u, w the binormal's handedness
-                                           // sign: cross(normal, tangent.xyz) * tangent.w points along +v
+    std::vector<glm::vec3> normals = {};      // as many as positions, unit length
+    std::vector<glm::vec2> uvs = {};          // as many as positions or none; (0,0) is the picture's lower left
+    std::vector<glm::vec4> tangents = {};     // as many as positions or none; xyz along +u, w the binormal's handedness
+                                              // sign: cross(normal, tangent.xyz) * tangent.w points along +v
     std::vector<glm::vec4> colors = {};       // as many as positions or none; linear, 1 in alpha where a file has none
     std::vector<VertexStream> streams = {};   // whatever else vertices or instances have
     std::vector<std::uint32_t> indices = {};  // three per triangle, or two per line
