@@ -1,9 +1,10 @@
 #include "trace/words.h"
 
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+
+#include "relief/bits.h"
 
 namespace relief::samples::trace {
 
@@ -53,7 +54,7 @@ std::string valueOf(const t::QuadValue& value, int pixel)
         } else if (value.kind == t::ValueKind::integer) {
             all += std::to_string(static_cast<std::int32_t>(word));
         } else {
-            all += number(std::bit_cast<float>(word));
+            all += number(bitCast<float>(word));
         }
     }
     return all;
@@ -158,7 +159,7 @@ std::string storedText(Format format, std::span<const std::uint32_t> words)
             std::snprintf(text, sizeof text, "0x%04x 0x%04x", words[i] & 0xffffu, words[i] >> 16);
             all += (i > 0 ? " " : "") + std::string(text);
         } else {
-            all += (i > 0 ? " " : "") + number(std::bit_cast<float>(words[i]));
+            all += (i > 0 ? " " : "") + number(bitCast<float>(words[i]));
         }
     }
     return all;
