@@ -22,12 +22,12 @@ const char* floatingPointProblem()
     constexpr float ulp = std::numeric_limits<float>::epsilon(), smallest = std::numeric_limits<float>::min();
     const float one = opaque(1.0f), next = opaque(1.0f + ulp);
 
-    // (1 + u)^2 - 1 - 2u is 0 where the product is rounded, u^2 where it is not.
-    if (next * next - (one + 2.0f * opaque(ulp)) != 0.0f) return "products are contracted into fused multiply-adds";
     // Half an ulp is a tie, which goes to the even number; more than half goes up, below zero down.
     if (one + opaque(0.5f * ulp) != one || one + opaque(0.75f * ulp) != next || -one - opaque(0.75f * ulp) != -next) {
         return "sums are not rounded to nearest";
     }
+    // (1 + u)^2 - 1 - 2u is 0 where the product is rounded, u^2 where it is not.
+    if (next * next - (one + 2.0f * opaque(ulp)) != 0.0f) return "products are contracted into fused multiply-adds";
     if (opaque(smallest) * opaque(0.5f) == 0.0f || opaque(0.5f * smallest) + opaque(0.5f * smallest) != smallest) {
         return "subnormal numbers are taken for 0";
     }
