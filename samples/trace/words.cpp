@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "relief/bits.h"
 
@@ -15,7 +16,16 @@ std::string shortest(Number value)
 {
     if (std::isnan(value)) return "NaN";
     char digits[64];
+#if defined(__cpp_lib_to_chars)
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+#else
+    // emscripten's C++ library has to_chars of integers only: the fewest digits that give the value again.
+    for (int precision = 1; precision <= 17; ++precision) {
+        std::snprintf(digits, sizeof digits, "%.*g", precision, static_cast<double>(value));
+        if (static_cast<Number>(std::strtod(digits, nullptr)) == value) break;
+    }
+    return digits;
+#endif
 }
 
 template <class Value>

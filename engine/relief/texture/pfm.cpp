@@ -89,7 +89,7 @@ Expected<ImageFloat> decodePfm(const std::string& name, std::span<const std::uin
     }
     if (!fitsInMemory(count * 16)) return fail(name + ": " + size + " does not fit into memory; scale it down");
 
-    ImageFloat image{header.width, header.height, std::vector<float>(count * 4, 1.0f)};
+    ImageFloat image{header.width, header.height, std::vector<float>(static_cast<std::size_t>(count) * 4, 1.0f)};
     const std::uint8_t* from = bytes.data() + header.length;
     for (int y = header.height; y-- > 0;) {
         float* pixel = &image.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(header.width) * 4];
