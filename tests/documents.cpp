@@ -269,6 +269,6 @@ TEST_CASE("documents: the table of machines has every row that there is, as it l
         CAPTURE(line);
         CHECK(page.find("\n    " + line + "\n") != std::string::npos);
         CHECK((line.find(" green: 76 of 76 hashes") != std::string::npos ||
-               line.find(" skipped: ") != std::string::npos));
+               line.find(" skipped: ") != std::string::npos || line.ends_with(" not run")));
     }
 }

@@ -11,20 +11,31 @@ namespace relief::samples::trace {
 
 namespace {
 
+#if !defined(__cpp_lib_to_chars)
+// With the fewest digits behind the point that give the value again; empty where twenty are not enough.
+template <class Number>
+std::string fewestDigits(const char* format, Number value)
+{
+    char digits[64];
+    for (int precision = 0; precision < 20; ++precision) {
+        std::snprintf(digits, sizeof digits, format, precision, static_cast<double>(value));
+        if (static_cast<Number>(std::strtod(digits, nullptr)) == value) return digits;
+    }
+    return {};
+}
+#endif
+
 template <class Number>
 std::string shortest(Number value)
 {
     if (std::isnan(value)) return "NaN";
-    char digits[64];
 #if defined(__cpp_lib_to_chars)
+    char digits[64];
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 #else
-    // emscripten's C++ library has to_chars of integers only: the fewest digits that give the value again.
-    for (int precision = 1; precision <= 17; ++precision) {
-        std::snprintf(digits, sizeof digits, "%.*g", precision, static_cast<double>(value));
-        if (static_cast<Number>(std::strtod(digits, nullptr)) == value) break;
-    }
-    return digits;
+    // emscripten's C++ library has to_chars of integers only. What to_chars does: the shorter one.
+    const std::string fixed = fewestDigits("%.*f", value), scientific = fewestDigits("%.*e", value);
+    return fixed.empty() || scientific.size() < fixed.size() ? scientific : fixed;
 #endif
 }
 
