@@ -466,8 +466,33 @@ TEST_CASE("command line: the gallery has every picture and a page that names the
         CHECK(page.find(stage.title) != std::string::npos);
         CHECK(page.find(stage.news) != std::string::npos);
     }
+
+    // In parts: the same files, each picture from one of the parts, none from two.
+    std::map<fs::path, std::string> whole, together;
+    const auto collect = [&](const fs::path& top, std::map<fs::path, std::string>& files) {
+        for (const auto& entry : fs::recursive_directory_iterator(top)) {
+            if (!entry.is_regular_file()) continue;
+            const bool isNew = files.emplace(fs::relative(entry.path(), top), contents(entry.path())).second;
+            CHECK((isNew || entry.path().filename() == "index.html"));
+        }
+    };
+    collect(folder.path / "g", whole);
+    for (const std::string part : {"1", "2", "3"}) {
+        REQUIRE(run(folder.path, "gallery --out part" + part + " --shard " + part + "/3").code == 0);
+        collect(folder.path / ("part" + part), together);
+    }
+    CHECK(together == whole);
 }
 #endif
+
+TEST_CASE("command line: a part of the gallery that there is not is refused")
+{
+    const TemporaryFolder folder;
+    for (const std::string shard : {"0/3", "4/3", "2", "2/", "/3", "2/3x", "-1/3"}) {
+        checkRefused(folder.path, "gallery --out g --shard " + shard, {"--shard " + shard, "such as 2/8"});
+        CHECK_FALSE(fs::exists(folder.path / "g"));
+    }
+}
 
 TEST_CASE("command line: bench --stage measures stages in turn, or draws and says how many pixels it shaded")
 {

@@ -254,3 +254,25 @@ TEST_CASE("documents: nothing in the engine prints, exits or throws")
         }
     }
 }
+
+TEST_CASE("documents: the table of machines has every row that there is, as it last came out")
+{
+    const std::string page = contents(kSource / "docs/machines.md"), script = contents(kSource / "tests/machines/run");
+    const std::string results = contents(kSource / "tests/machines/results.txt");
+    const std::regex row("\n([a-z0-9+-]+) +\\| [^\n]*\\|[^\n]*\\|");
+    int rows = 0;
+    for (std::sregex_iterator it(script.begin(), script.end(), row), end; it != end; ++it, ++rows) {
+        const std::string name = (*it)[1];
+        CAPTURE(name);
+        CHECK(page.find("`" + name + "`") != std::string::npos);
+        CHECK(("\n" + results).find("\n" + name + " ") != std::string::npos);
+    }
+    CHECK(rows >= 12);
+    std::istringstream lines(results);
+    for (std::string line; std::getline(lines, line);) {
+        CAPTURE(line);
+        CHECK(page.find("\n    " + line + "\n") != std::string::npos);
+        CHECK((line.find(" green: 76 of 76 hashes") != std::string::npos ||
+               line.find(" skipped: ") != std::string::npos || line.ends_with(" not run")));
+    }
+}

@@ -390,7 +390,10 @@ int runProgram(int argc, char** argv, const Program& program)
     std::string folder = "gallery";
     command->add_option("--out", folder, "The folder")->capture_default_str()->type_name("DIR");
     command->add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
-    command->callback([&] { run("gallery", program.gallery, folder, options.threads); });
+    std::string shard = "1/1";
+    command->add_option("--shard", shard, "The second of eight parts of the stages: 2/8; all of them give the whole")
+        ->type_name("I/N");
+    command->callback([&] { run("gallery", program.gallery, folder, shard, options.threads); });
 
     command = app.add_subcommand(
         "view", "Shows a stage in a window, and again whenever its file is saved, or a scene of a .gltf or .glb file");

@@ -15,7 +15,7 @@ struct Program
     Expected<void> (*renderScene)(const RenderOptions& options, const std::string& output) = nullptr;
     Expected<void> (*renderAtEverySave)(const RenderOptions& options, const std::string& output) = nullptr;
     Expected<void> (*newStage)(const std::string& path, const std::string& from) = nullptr;
-    Expected<void> (*gallery)(const std::string& folder, int threads) = nullptr;
+    Expected<void> (*gallery)(const std::string& folder, const std::string& shard, int threads) = nullptr;
     Expected<void> (*view)(const ViewOptions& options) = nullptr;
     Expected<void> (*hash)(const RenderOptions& options) = nullptr;
     Expected<void> (*signature)(const RenderOptions& options, const std::string& binormal) = nullptr;

@@ -15,7 +15,7 @@ Expected<void> benchLive(const LiveBenchOptions& options);
 Expected<void> hash(const RenderOptions& options);
 Expected<void> signature(const RenderOptions& options, const std::string& binormal);
 Expected<void> explain(const RenderOptions& options, bool json);
-Expected<void> gallery(const std::string& folder, int threads);
+Expected<void> gallery(const std::string& folder, const std::string& shard, int threads);
 Expected<void> view(const ViewOptions& options);
 
 // Renders into 8-bit sRGB colours with so many samples a pixel, the picture or one of its views (common/inside.h), and

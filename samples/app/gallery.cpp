@@ -1,4 +1,5 @@
 // The gallery: every stage as a picture, and one page that shows them in order.
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 
@@ -48,13 +49,34 @@ std::string page()
     return html + "</main>\n</html>\n";
 }
 
+// One of `count` parts of the stages: those at index, index + count, ... The same on every machine.
+struct Shard
+{
+    std::size_t index = 0, count = 1;
+};
+
+Expected<Shard> parseShard(const std::string& text)
+{
+    std::uint32_t number = 0, count = 0;
+    const char* const end = text.data() + text.size();
+    const auto [slash, numberError] = std::from_chars(text.data(), end, number);
+    if (numberError == std::errc() && slash != end && *slash == '/') {
+        const auto [rest, countError] = std::from_chars(slash + 1, end, count);
+        if (countError == std::errc() && rest == end && number >= 1 && number <= count) return Shard{number - 1, count};
+    }
+    return fail("--shard " + text + ": write I/N with I from 1 to N, such as 2/8");
+}
+
 }  // namespace
 
-Expected<void> gallery(const std::string& folder, int threads)
+Expected<void> gallery(const std::string& folder, const std::string& shardText, int threads)
 {
+    const Expected<Shard> shard = parseShard(shardText);
+    if (!shard) return tl::unexpected(shard.error());
     const bool terminal = isatty(STDOUT_FILENO) != 0;
     std::size_t done = 0;
-    for (const Stage& stage : allStages()) {
+    for (std::size_t i = shard->index; i < allStages().size(); i += shard->count) {
+        const Stage& stage = allStages()[i];
         const std::filesystem::path path = std::filesystem::path(folder) / stage.folder / (stage.stem + ".png");
         std::error_code error;
         std::filesystem::create_directories(path.parent_path(), error);
@@ -64,7 +86,7 @@ Expected<void> gallery(const std::string& folder, int threads)
         }
         ++done;
         if (terminal) {
-            std::printf("\r\033[K[%zu/%zu] %s", done, allStages().size(), stage.name().c_str());
+            std::printf("\r\033[K[%zu/%zu] %s", i + 1, allStages().size(), stage.name().c_str());
             std::fflush(stdout);
         }
         const Expected<PreparedStage> prepared = PreparedStage::prepare(stage);

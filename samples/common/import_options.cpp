@@ -1,7 +1,8 @@
 #include "common/import_options.h"
 
-#include <charconv>
 #include <utility>
+
+#include "relief/decimal.h"
 
 namespace relief::samples {
 
@@ -47,13 +48,11 @@ Expected<void> apply(const std::string& option, ImportSettings& s)
     }
     if (name == "fade") return choose(option, value, Choices<bool>{{"on", true}, {"off", false}}, s.fadeOutMips);
     if (name == "bumpiness") {
-        const char* const end = value.data() + value.size();
-        float number = 0.0f;
-        const auto [rest, error] = std::from_chars(value.data(), end, number);
-        if (error != std::errc() || rest != end || !(number >= 0.0f && number <= kMaxBumpiness)) {
+        const std::optional<float> number = parseDecimal(value);
+        if (!number || !(*number >= 0.0f && *number <= kMaxBumpiness)) {
             return fail("--import " + option + ": '" + value + "' is not a number from 0 to 16");
         }
-        s.bumpiness = number;
+        s.bumpiness = *number;
         return {};
     }
     return fail("--import " + option + ": unknown; write storage=, bumpiness=, filter=, heights= or fade= and a value");

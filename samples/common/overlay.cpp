@@ -1,7 +1,7 @@
 #include "common/overlay.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cstdio>
 #include <sstream>
 
 namespace relief::samples {
@@ -46,8 +46,8 @@ int textScale(int width, int height)
 std::string shortNumber(float number)
 {
     char text[32];
-    const auto [end, error] = std::to_chars(text, text + sizeof text, number, std::chars_format::general, 4);
-    return {text, end};
+    std::snprintf(text, sizeof text, "%.4g", static_cast<double>(number));
+    return text;
 }
 
 void Overlay::rectangle(const Rectangle& r, const SrgbCode& color, float opacity)

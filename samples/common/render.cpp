@@ -1,9 +1,11 @@
 #include "common/render.h"
 
-#include <bit>
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+
+#include "relief/decimal.h"
 
 namespace relief::samples {
 
@@ -49,16 +51,16 @@ Expected<void> applySetting(const std::string& setting, const std::string& stage
     const char* at = setting.data() + equals + 1;
     const char* const end = setting.data() + setting.size();
     for (int i = 0; i < property->components; ++i) {
-        float number = 0.0f;
-        const auto [rest, error] = std::from_chars(at, end, number);
+        const char* const rest = std::find(at, end, ',');
+        const std::optional<float> parsed = parseDecimal({at, static_cast<std::size_t>(rest - at)});
         const bool last = rest == end;
-        if (error != std::errc() || !std::isfinite(number) ||
-            (!last && (*rest != ',' || i + 1 == property->components))) {
+        if (!parsed || (!last && i + 1 == property->components)) {
             return fail("--set " + setting + ": '" + std::string(setting, equals + 1) + "' is not " +
                         (property->components == 1
                              ? std::string("a number")
                              : "up to " + std::to_string(property->components) + " numbers with commas between them"));
         }
+        const float number = *parsed;
         if (number < property->minimum || number > property->maximum) {
             return fail("--set " + setting + ": " + text(number) + " is outside the range of " + name + ", " +
                         text(property->minimum) + " to " + text(property->maximum));

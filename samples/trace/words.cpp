@@ -1,20 +1,42 @@
 #include "trace/words.h"
 
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+
+#include "relief/bits.h"
 
 namespace relief::samples::trace {
 
 namespace {
 
+#if !defined(__cpp_lib_to_chars)
+// With the fewest digits behind the point that give the value again; empty where twenty are not enough.
+template <class Number>
+std::string fewestDigits(const char* format, Number value)
+{
+    char digits[64];
+    for (int precision = 0; precision < 20; ++precision) {
+        std::snprintf(digits, sizeof digits, format, precision, static_cast<double>(value));
+        if (static_cast<Number>(std::strtod(digits, nullptr)) == value) return digits;
+    }
+    return {};
+}
+#endif
+
 template <class Number>
 std::string shortest(Number value)
 {
     if (std::isnan(value)) return "NaN";
+#if defined(__cpp_lib_to_chars)
     char digits[64];
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+#else
+    // emscripten's C++ library has to_chars of integers only. What to_chars does: the shorter one.
+    const std::string fixed = fewestDigits("%.*f", value), scientific = fewestDigits("%.*e", value);
+    return fixed.empty() || scientific.size() < fixed.size() ? scientific : fixed;
+#endif
 }
 
 template <class Value>
@@ -53,7 +75,7 @@ std::string valueOf(const t::QuadValue& value, int pixel)
         } else if (value.kind == t::ValueKind::integer) {
             all += std::to_string(static_cast<std::int32_t>(word));
         } else {
-            all += number(std::bit_cast<float>(word));
+            all += number(bitCast<float>(word));
         }
     }
     return all;
@@ -158,7 +180,7 @@ std::string storedText(Format format, std::span<const std::uint32_t> words)
             std::snprintf(text, sizeof text, "0x%04x 0x%04x", words[i] & 0xffffu, words[i] >> 16);
             all += (i > 0 ? " " : "") + std::string(text);
         } else {
-            all += (i > 0 ? " " : "") + number(std::bit_cast<float>(words[i]));
+            all += (i > 0 ? " " : "") + number(bitCast<float>(words[i]));
         }
     }
     return all;

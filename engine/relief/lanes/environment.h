@@ -32,7 +32,7 @@ public:
 private:
     unsigned callers;
 #elif defined(__wasm__)
-    DefaultFloatingPoint() = default;  // has one environment only, this one
+    DefaultFloatingPoint() {}  // has one environment only, this one (and a body: no object is "unused")
 #else
     DefaultFloatingPoint()
     {
@@ -48,5 +48,10 @@ private:
     std::fenv_t callers;
 #endif
 };
+
+// What this thread computes otherwise than the results are defined: that it contracts products, does not round to
+// nearest, takes subnormal numbers for 0, or compares NaN like a number. A few words; null: nothing. Of the flags that
+// the engine was compiled with, and of the environment that the caller is in.
+const char* floatingPointProblem();
 
 }  // namespace relief

@@ -75,10 +75,12 @@ inline FloatVector toFloat(IntVector a)
     return __builtin_convertvector(a, FloatVector);
 }
 // Toward zero, of numbers that an integer can hold.
+#if !defined(__wasm_simd128__) || defined(RELIEF_PORTABLE)
 inline IntVector truncateToInt(FloatVector a)
 {
     return __builtin_convertvector(a, IntVector);
 }
+#endif
 
 // Lane i of the result is lane from[i] of a, and from[i] - kLanes of b.
 template <int... from, class V>
@@ -130,14 +132,18 @@ inline QuadVector loadQuad(const std::byte* address)
 }  // namespace relief::inline RELIEF_WIDTH::native
 
 // Each of these files has: select; min, max, maxOrNaN; signBits, maskBits; sqrt, floor, roundToInt; lowToDouble,
-// highToDouble, toFloat, negativeBits; insertQuad, storeQuads, loadTwoHalves; multiplyAddHalves. NEON and wasm's
-// vectors (4 lanes) are to stand here, before the portable one, as native_neon.h and native_wasm.h.
+// highToDouble, toFloat, negativeBits; insertQuad, storeQuads, loadTwoHalves; multiplyAddHalves. RELIEF_PORTABLE
+// takes the plain loops on any machine.
 #if RELIEF_LANES == 16
 #include "relief/lanes/native_avx512.h"
 #elif RELIEF_LANES == 8
 #include "relief/lanes/native_avx2.h"
 #elif defined(__SSE2__) && !defined(RELIEF_PORTABLE)
 #include "relief/lanes/native_sse2.h"
+#elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(RELIEF_PORTABLE)
+#include "relief/lanes/native_neon.h"
+#elif defined(__wasm_simd128__) && !defined(RELIEF_PORTABLE)
+#include "relief/lanes/native_wasm.h"
 #else
 #include "relief/lanes/native_portable.h"
 #endif

@@ -1,4 +1,4 @@
-// 4 lanes for every other target (aarch64, wasm32, ...): what native.h does not have, as plain loops, which compilers
+// 4 lanes for every other target (riscv64, s390x, ...): what native.h does not have, as plain loops, which compilers
 // turn into vector code, and the reference to read.
 #pragma once
 

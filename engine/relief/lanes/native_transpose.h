@@ -26,7 +26,10 @@ inline void storeTransposed(const IntVector in[4], std::byte* const address[kLan
 {
     IntVector lane[4];  // lane[k] holds the words of lane k in every quad
     transposeQuads(in[0], in[1], in[2], in[3], lane);
-    for (int k = 0; k < 4; ++k) storeQuads(lane[k], address + k);
+    storeQuads(lane[0], address);  // no loop: g++ 12 at -O2 would keep it, and the lanes in memory
+    storeQuads(lane[1], address + 1);
+    storeQuads(lane[2], address + 2);
+    storeQuads(lane[3], address + 3);
 }
 
 // Gathers 16 bytes per lane, quad after quad, and gives word k of every lane.

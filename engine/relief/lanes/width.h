@@ -10,7 +10,7 @@
 // The results do not depend on the width; the speed does. The default is the widest that the target has in hardware.
 #pragma once
 
-#if defined(__FAST_MATH__)
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "compile without -ffast-math: it lets the compiler change the order of sums and drop NaN, and so the picture"
 #endif
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-#include "relief/mesh/obj_number.h"
+#include "relief/decimal.h"
 
 namespace relief {
 namespace {

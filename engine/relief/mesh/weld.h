@@ -3,11 +3,11 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "relief/bits.h"
 #include "relief/mesh/mesh.h"
 
 namespace relief {
@@ -15,7 +15,7 @@ namespace relief {
 // The word that stands for a number in a record: its bits, where -0 is 0, because the two compare equal.
 inline std::uint32_t weldWord(float number)
 {
-    return std::bit_cast<std::uint32_t>(number + 0.0f);
+    return bitCast<std::uint32_t>(number + 0.0f);
 }
 
 // For each record the index of the first record that is equal to it: its own, if it is the first.

@@ -6,6 +6,7 @@
 #include <bit>
 #include <limits>
 
+#include "relief/lanes/environment.h"
 #include "relief/leave_out.h"
 #include "relief/pipeline/frame_storage.h"
 #include "relief/pipeline/line.h"
@@ -135,9 +136,18 @@ void Frame::setFrontCounterClockwise(bool counterClockwise)
 Expected<void> Frame::record(const Programs& programs, const void* vertexProgram, const void* fragmentProgram,
                              const Mesh& mesh, const RenderState& state, const MeshPart& part, bool contractsProducts)
 {
+    // Once: what the workers' environment does not put right.
+    static const char* const floatingPoint = [] {
+        const DefaultFloatingPoint environment;
+        return floatingPointProblem();
+    }();
     Storage& s = *storage;
     Expected<Draw> draw =
-        contractsProducts
+        floatingPoint != nullptr ? fail("draw of mesh '" + mesh.name + "': on this machine " + floatingPoint +
+                                        ", and the picture would have other bits than elsewhere; compile the engine "
+                                        "with CMake's flags for it "
+                                        "(-ffp-contract=off, no -ffast-math)")
+        : contractsProducts
             ? fail("draw of mesh '" + mesh.name +
                    "': its programs are compiled without -ffp-contract=off, and would give other bits than elsewhere; "
                    "add that flag (in CMake, link relief_engine, which passes it on)")

@@ -23,7 +23,7 @@ public:
     T* reserve(std::size_t count)
     {
         if (count > capacity) {
-            data = std::make_unique_for_overwrite<T[]>(count);
+            data.reset(new T[count]);  // not set to 0
             capacity = count;
         }
         return data.get();

@@ -75,7 +75,7 @@ float shadeSample(const Draw& draw, const Sample& sample, std::uint64_t times)
     for (std::size_t i = 0; i < group.size(); ++i) group[i].more = &more[i];
     float sum = 0.0f;
     for (std::uint64_t rest = times; rest > 0;) {
-        const std::size_t n = std::min<std::uint64_t>(rest, group.size());
+        const auto n = static_cast<std::size_t>(std::min<std::uint64_t>(rest, group.size()));
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), {group.data(), n}, batch, &corners);
         for (const float(&channel)[kLanes] : group[n - 1].color) sum += channel[0];
         rest -= n;

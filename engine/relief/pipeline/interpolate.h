@@ -6,8 +6,7 @@
 //     p_k = E_k / w_k / sum(E_j / w_j)     linear in space: everything else
 #pragma once
 
-#include <bit>
-
+#include "relief/bits.h"
 #include "relief/hlsl/semantics.h"
 #include "relief/lanes/double.h"
 #include "relief/pipeline/edge_function.h"
@@ -169,7 +168,7 @@ T broadcastBits(float word)
     if constexpr (std::is_same_v<T, float>) {
         return word;
     } else {
-        return asFloat(Int(std::bit_cast<std::int32_t>(word)));
+        return asFloat(Int(bitCast<std::int32_t>(word)));
     }
 }
 

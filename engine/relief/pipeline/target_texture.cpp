@@ -1,6 +1,7 @@
 #include "relief/pipeline/target_texture.h"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 #include <vector>
 
@@ -41,13 +42,26 @@ Expected<Texture> textureOf(const Framebuffer& target, int attachment)
         return fail(name + "it is discarded when a frame has run; create it with Store::keep");
     const std::span<const std::uint32_t> words = target.words(attachment);
     const int width = target.width(), height = target.height();
-    const auto bytes = [&] { return std::span(reinterpret_cast<const std::uint8_t*>(words.data()), words.size() * 4); };
+    // R, G, B and A: the words as they lie in memory, but for machines that put the highest byte first.
+    const auto fromBytes = [&](ColorSpace space) {
+        if constexpr (std::endian::native == std::endian::little) {
+            return Texture::fromRgba8(width, height,
+                                      {reinterpret_cast<const std::uint8_t*>(words.data()), words.size() * 4}, space);
+        } else {
+            std::vector<std::uint8_t> bytes;
+            bytes.reserve(words.size() * 4);
+            for (const std::uint32_t pixel : words) {
+                for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(pixel >> shift));
+            }
+            return Texture::fromRgba8(width, height, bytes, space);
+        }
+    };
     const auto floats = [&] { return std::span(reinterpret_cast<const float*>(words.data()), words.size()); };
     switch (what.format) {
         case Format::rgba8:
-            return Texture::fromRgba8(width, height, bytes(), ColorSpace::linear);
+            return fromBytes(ColorSpace::linear);
         case Format::rgba8Srgb:
-            return Texture::fromRgba8(width, height, bytes(), ColorSpace::srgb);
+            return fromBytes(ColorSpace::srgb);
         case Format::rgba16f:
             return Texture::fromRgbaFloat(width, height, decoded(words));
         case Format::rgba32f:

@@ -1,9 +1,9 @@
 #include "relief/pipeline/tile.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 
+#include "relief/bits.h"
 #include "relief/pipeline/format.h"
 
 namespace relief::inline RELIEF_WIDTH {
@@ -20,7 +20,7 @@ public:
     bool next(const Attachment& attachment, std::int32_t (&words)[4])
     {
         if (attachment.format == Format::depth32f) {
-            if (clear.depth) words[0] = std::bit_cast<std::int32_t>(*clear.depth);
+            if (clear.depth) words[0] = bitCast<std::int32_t>(*clear.depth);
             return clear.depth.has_value();
         }
         if (attachment.format == Format::stencil8) {

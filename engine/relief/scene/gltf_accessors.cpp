@@ -1,11 +1,11 @@
 #include "relief/scene/gltf_accessors.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <optional>
 
+#include "relief/bits.h"
 #include "relief/memory.h"
 #include "relief/scene/tinygltf.h"
 
@@ -83,7 +83,7 @@ float floatOf(std::uint32_t word, int componentType, bool normalized)
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
             return scaled(word, 4294967295.0f);
         default:
-            return std::bit_cast<float>(word);
+            return bitCast<float>(word);
     }
 }
 

@@ -83,17 +83,24 @@ Expected<void> parseGltf(const std::string& path, tinygltf::Model& model)
     std::string readProblem, problem, warning;
     reader.SetFsCallbacks({exists, samePath, readWhole, nullptr, &readProblem});
     reader.SetImageLoader(keepBytes, nullptr);
-    bool done = false;
-    try {
+    const auto load = [&] {
         const auto length = static_cast<unsigned>(text->json.size());
         const std::string folder = folderOf(path);
-        done = text->isBinary
+        return text->isBinary
                    ? reader.LoadBinaryFromMemory(&model, &problem, &warning, bytes->data(),
                                                  static_cast<unsigned>(bytes->size()), folder)
                    : reader.LoadASCIIFromString(&model, &problem, &warning, text->json.data(), length, folder);
+    };
+    bool done = false;
+#if defined(__cpp_exceptions)
+    try {
+        done = load();
     } catch (const std::exception& exception) {
         problem = exception.what();
     }
+#else
+    done = load();  // what checkGltfText did not refuse and the library throws for ends the program
+#endif
     while (problem.ends_with('\n') || problem.ends_with('.')) problem.pop_back();  // tinygltf's own words
     if (!readProblem.empty()) return failHere(readProblem);
     if (!done) return failHere((problem.empty() ? "is damaged" : problem) + "; export it again");

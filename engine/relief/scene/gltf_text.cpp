@@ -174,12 +174,12 @@ Expected<GltfText> gltfText(std::span<const std::uint8_t> file)
         return fail("is damaged (its first chunk is not JSON within the file); copy or export it again");
     }
     if (20 + jsonLength + 8 <= length) {
-        const std::uint64_t binary = wordAt(file, 20 + jsonLength);
+        const std::uint64_t binary = wordAt(file, static_cast<std::size_t>(20 + jsonLength));
         if (28 + jsonLength + binary > length) {
             return fail("is damaged (its second chunk does not fit into the file); copy or export it again");
         }
     }
-    return GltfText{whole.substr(20, jsonLength), true};
+    return GltfText{whole.substr(20, static_cast<std::size_t>(jsonLength)), true};
 }
 
 Expected<void> checkGltfText(std::string_view json)

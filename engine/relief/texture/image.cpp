@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -20,6 +19,7 @@
 #define STBI_WRITE_NO_STDIO
 #include <stb/stb_image_write.h>
 
+#include "relief/bits.h"
 #include "relief/file.h"
 #include "relief/lanes/environment.h"
 #include "relief/memory.h"
@@ -287,7 +287,7 @@ Expected<void> writePfm(const std::string& path, int width, int height, std::spa
     bytes.reserve(bytes.size() + rgb.size() * 4);
     for (std::size_t row = static_cast<std::size_t>(height); row-- > 0;) {
         for (const float value : rgb.subspan(row * floatsPerRow, floatsPerRow)) {
-            const auto bits = std::bit_cast<std::uint32_t>(value);
+            const auto bits = bitCast<std::uint32_t>(value);
             for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
         }
     }

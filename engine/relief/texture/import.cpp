@@ -227,7 +227,8 @@ public:
     {
         std::unique_lock lock(importing);
         const std::optional<FileKey> file = keyOf(path);
-        if (file) wasRead.wait(lock, [&] { return std::ranges::find(beingRead, *file) == beingRead.end(); });
+        if (file)
+            wasRead.wait(lock, [&] { return std::find(beingRead.begin(), beingRead.end(), *file) == beingRead.end(); });
         if (file) {
             for (const Import& import : textures) {
                 if (!(import.file == *file && import.settings == settings)) continue;

@@ -1,12 +1,14 @@
 // PFM: a header of four words (kind, width, height, scale), one white space, and the rows from the lowest to the top.
 #include "relief/texture/pfm.h"
 
-#include <bit>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
+#include "relief/bits.h"
+#include "relief/decimal.h"
 #include "relief/memory.h"
 
 namespace relief {
@@ -32,8 +34,14 @@ std::string_view nextWord(std::string_view text, std::size_t& at)
     return word;
 }
 
-template <class Number>
-bool readNumber(std::string_view word, Number& number)
+bool readNumber(std::string_view word, float& number)
+{
+    const std::optional<float> value = parseDecimal(word);
+    if (value) number = *value;
+    return value.has_value();
+}
+
+bool readNumber(std::string_view word, int& number)
 {
     const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
     return problem == std::errc() && end == word.data() + word.size();
@@ -51,7 +59,7 @@ float numberAt(const std::uint8_t* bytes, bool littleEndian)
 {
     std::uint32_t bits = 0;
     for (int i = 0; i < 4; ++i) bits |= std::uint32_t{bytes[i]} << (littleEndian ? 8 * i : 24 - 8 * i);
-    return std::bit_cast<float>(bits);
+    return bitCast<float>(bits);
 }
 
 }  // namespace
@@ -81,7 +89,7 @@ Expected<ImageFloat> decodePfm(const std::string& name, std::span<const std::uin
     }
     if (!fitsInMemory(count * 16)) return fail(name + ": " + size + " does not fit into memory; scale it down");
 
-    ImageFloat image{header.width, header.height, std::vector<float>(count * 4, 1.0f)};
+    ImageFloat image{header.width, header.height, std::vector<float>(static_cast<std::size_t>(count) * 4, 1.0f)};
     const std::uint8_t* from = bytes.data() + header.length;
     for (int y = header.height; y-- > 0;) {
         float* pixel = &image.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(header.width) * 4];

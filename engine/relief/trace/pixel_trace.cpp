@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "relief/bits.h"
 #include "relief/pipeline/edge_function.h"
 #include "relief/pipeline/exchange.h"
 #include "relief/pipeline/line.h"
@@ -257,7 +258,7 @@ private:
     // A NaN is a NaN: its bits are the processor's.
     static bool sameBits(float a, float b)
     {
-        return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b));
+        return bitCast<std::uint32_t>(a) == bitCast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b));
     }
     void expect(bool isSo, const char* what)
     {
@@ -304,7 +305,7 @@ private:
                 here[c] = interpolated(field.interpolation, from[0][slot], from[1][slot], from[2][slot],
                                        isCentroid(field) ? atCentroid : atCenter);
                 for (std::size_t k = 0; k < 3; ++k)
-                    trace.corners[k][static_cast<std::size_t>(c)] = std::bit_cast<std::uint32_t>(from[k][slot]);
+                    trace.corners[k][static_cast<std::size_t>(c)] = bitCast<std::uint32_t>(from[k][slot]);
             }
             trace.here =
                 quadOf({field.isInteger ? ValueKind::integer : ValueKind::number, field.components, 1, here}, at.quad);

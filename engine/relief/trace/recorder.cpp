@@ -1,14 +1,15 @@
 #include "relief/trace/recorder.h"
 
-#include <bit>
 #include <cmath>
+
+#include "relief/bits.h"
 
 namespace relief::inline RELIEF_WIDTH::trace {
 
 float QuadValue::number(int pixel, int component) const
 {
     const std::uint32_t word = words[static_cast<std::size_t>(pixel)][static_cast<std::size_t>(component)];
-    return kind == ValueKind::number ? std::bit_cast<float>(word) : static_cast<float>(static_cast<std::int32_t>(word));
+    return kind == ValueKind::number ? bitCast<float>(word) : static_cast<float>(static_cast<std::int32_t>(word));
 }
 
 QuadValue quadOf(const LaneValue& value, int quad)
@@ -19,7 +20,7 @@ QuadValue quadOf(const LaneValue& value, int quad)
         value.components[c].store(lanes);
         for (int pixel = 0; pixel < 4; ++pixel)
             its.words[static_cast<std::size_t>(pixel)][static_cast<std::size_t>(c)] =
-                std::bit_cast<std::uint32_t>(lanes[quad + pixel]);
+                bitCast<std::uint32_t>(lanes[quad + pixel]);
     }
     return its;
 }
@@ -31,8 +32,7 @@ void Recorder::sample(const Site& site, const TextureCall& call)
     for (std::size_t c = 0; c < 4; ++c) {
         // A NaN is a NaN: its bits are the processor's.
         const bool bothNan = std::isnan(again[c]) && std::isnan(trace.result[c]);
-        agrees = agrees &&
-                 (bothNan || std::bit_cast<std::uint32_t>(again[c]) == std::bit_cast<std::uint32_t>(trace.result[c]));
+        agrees = agrees && (bothNan || bitCast<std::uint32_t>(again[c]) == bitCast<std::uint32_t>(trace.result[c]));
     }
     const Float result[4] = {call.result.x, call.result.y, call.result.z, call.result.w};
     const int count = call.function == TextureFunction::SampleCmp ? 1 : 4;

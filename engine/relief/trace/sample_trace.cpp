@@ -3,10 +3,10 @@
 #include "relief/trace/sample_trace.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
+#include "relief/bits.h"
 #include "relief/texture/level_of_detail.h"
 #include "relief/texture/sampler_steps.h"
 
@@ -55,7 +55,7 @@ TexelTrace texelAt(const sampler2D& s, const Texture& texture, const MipLevel& l
         } else {
             const bool isThere = texture.format() == TexelFormat::rgba32Float || c == 0;
             const float value = isThere ? level.texel<float>(x, y)[c] : c == 3 ? 1.0f : 0.0f;
-            set(c, std::bit_cast<std::uint32_t>(value), value);
+            set(c, bitCast<std::uint32_t>(value), value);
         }
     }
     return texel;

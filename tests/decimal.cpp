@@ -1,5 +1,5 @@
 // Numbers of OBJ files: what is one, and which float it is.
-#include "relief/mesh/obj_number.h"
+#include "relief/decimal.h"
 
 #include <bit>
 #include <cmath>

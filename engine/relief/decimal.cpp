@@ -1,4 +1,4 @@
-#include "relief/mesh/obj_number.h"
+#include "relief/decimal.h"
 
 #include <algorithm>
 #include <charconv>
