@@ -2,8 +2,12 @@
 // the same byte for byte (with --update it becomes the golden; `relief check review golden_failures` shows both); the
 // float colours and depths must have the committed hash for every number of threads and every tile size. The number of
 // lanes, the compiler and the build type vary with the build: each is held to the same hash.
+#include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <fstream>
+#include <optional>
+#include <span>
 
 #include "golden_stage.h"
 #include "relief/check/golden_run.h"
@@ -24,12 +28,22 @@ Expected<std::string> expectedHash(const Stage& stage)
     return fail(hashesPath().string() + ": has no hash of " + stage.id + "; update_goldens");
 }
 
+std::string lifeOf(const Stage& stage, int x, int y, const FrameOptions& options = {})
+{
+    std::string words = "its life: ./relief trace " + stage.id + " --size " + std::to_string(kGoldenWidth) + "x" +
+                        std::to_string(kGoldenHeight) + " --pixel " + std::to_string(x) + "," + std::to_string(y);
+    if (options.threads > 0) words += " --threads " + std::to_string(options.threads);
+    if (options.tileSize != FrameOptions{}.tileSize) words += " --tile " + std::to_string(options.tileSize);
+    return words;
+}
+
 Expected<void> checkPicture(const Stage& stage, bool update)
 {
     const Expected<Framebuffer> target = renderForGolden(stage, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
     GoldenRun run({.goldens = RELIEF_GOLDEN_FOLDER, .failures = "golden_failures", .update = update});
-    return run.check(stage.folder + "/" + stage.stem, *target).map_error([](const Error& error) {
+    const auto tell = [&](int x, int y) { return lifeOf(stage, x, y); };
+    return run.check(stage.folder + "/" + stage.stem, *target, {}, tell).map_error([](const Error& error) {
         return Error{error.message + " (of all stages: update_goldens)"};
     });
 }
@@ -48,18 +62,40 @@ std::vector<FrameOptions> everyKindOfFrame()
 #endif
 }
 
+// Where two pictures of a stage part: the first pixel, both values, and how its life is told.
+std::string firstDifference(const Stage& stage, const Framebuffer& wrong, const FrameOptions& options,
+                            const Framebuffer& right)
+{
+    const std::span<const std::uint32_t> is = wrong.words(0), shouldBe = right.words(0);
+    const auto [at, other] = std::mismatch(is.begin(), is.end(), shouldBe.begin(), shouldBe.end());
+    if (at == is.end()) return "\nthe colours are the same, the depths are not";
+    const auto word = static_cast<int>(at - is.begin());
+    const int x = word / 4 % kGoldenWidth, y = word / 4 / kGoldenWidth;
+    char values[128];
+    std::snprintf(values, sizeof values, "\npixel (%d, %d), component %d: %.9g, should be %.9g\n", x, y, word % 4,
+                  static_cast<double>(std::bit_cast<float>(*at)), static_cast<double>(std::bit_cast<float>(*other)));
+    return values + lifeOf(stage, x, y, options);
+}
+
 Expected<void> checkHash(const Stage& stage)
 {
     const Expected<std::string> expected = expectedHash(stage);
     if (!expected) return tl::unexpected(expected.error());
+    std::optional<Framebuffer> right;
     for (const FrameOptions& options : everyKindOfFrame()) {
-        const Expected<Framebuffer> target = renderForGolden(stage, Format::rgba32f, options);
+        Expected<Framebuffer> target = renderForGolden(stage, Format::rgba32f, options);
         if (!target) return tl::unexpected(target.error());
         const std::string hash = hexadecimal(hashOf(*target));
-        if (hash == *expected) continue;
+        if (hash == *expected) {
+            if (!right) right = std::move(*target);
+            continue;
+        }
+        const std::string where = right ? firstDifference(stage, *target, options, *right)
+                                        : "\nno frame of this build has it; `check_stage golden " + stage.id +
+                                              "` names the first pixel of the picture that differs";
         return fail(stage.id + ": hash " + hash + " with " + std::to_string(options.threads) + " threads, tiles of " +
                     std::to_string(options.tileSize) + " px and " + std::to_string(kLanes) + " lanes; should be " +
-                    *expected);
+                    *expected + where);
     }
     return {};
 }
