@@ -91,27 +91,11 @@ inline bool reportGolden(const Expected<void>& result, const char* file, int lin
 
 }  // namespace detail
 
-// Holds a target, or a picture (ImageFile), to the golden of this test; of several in one test each has a part's name.
-template <class Picture>
-bool expectGolden(const Picture& picture, const Tolerance& tolerance = {}, const char* file = __builtin_FILE(),
-                  int line = __builtin_LINE())
-{
-    return detail::reportGolden(detail::checkInTest(picture, "", tolerance, {}), file, line);
-}
+}  // namespace relief
 
-template <class Picture>
-bool expectGolden(const Picture& picture, const std::string& part, const Tolerance& tolerance = {},
-                  const char* file = __builtin_FILE(), int line = __builtin_LINE())
-{
-    return detail::reportGolden(detail::checkInTest(picture, part, tolerance, {}), file, line);
-}
+#include "relief/check/expect_golden.h"
 
-// The same, and tells how the first differing pixel of the frame came about.
-inline bool expectGolden(const Framebuffer& target, Frame& frame, const Tolerance& tolerance = {},
-                         const char* file = __builtin_FILE(), int line = __builtin_LINE())
-{
-    return detail::reportGolden(detail::checkInTest(target, "", tolerance, detail::tellerOf(frame)), file, line);
-}
+namespace relief {
 
 #if defined(RELIEF_CHECK_MAIN)
 // What main() returns. Takes --update, and all that Catch2 takes.

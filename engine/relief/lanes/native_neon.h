@@ -34,8 +34,8 @@ inline FloatVector max(FloatVector a, FloatVector b)
 {
     return select(less(b, a), a, b);
 }
-// The larger of two numbers that are not negative, NaN where one of them is NaN: in the order of their bits NaN is the
-// largest.
+// The larger of two numbers that are not negative (nor -0), NaN where one of them is NaN: in the order of their bits
+// NaN is the largest.
 inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
 {
     return (FloatVector)vmaxq_u32((uint32x4_t)a, (uint32x4_t)b);

@@ -39,8 +39,8 @@ inline FloatVector max(FloatVector a, FloatVector b)
 {
     return (FloatVector)wasm_f32x4_pmax((v128_t)b, (v128_t)a);
 }
-// The larger of two numbers that are not negative, NaN where one of them is NaN: in the order of their bits NaN is the
-// largest.
+// The larger of two numbers that are not negative (nor -0), NaN where one of them is NaN: in the order of their bits
+// NaN is the largest.
 inline FloatVector maxOrNaN(FloatVector a, FloatVector b)
 {
     return (FloatVector)wasm_u32x4_max((v128_t)a, (v128_t)b);
