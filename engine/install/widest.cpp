@@ -51,9 +51,10 @@ int main(int argc, char** argv)
     const auto exists = [&](int lanes) { return fs::exists(at(lanes), problem); };
 
     if (argc > 1) {
+        std::string word = argv[1];
+        std::replace(word.begin(), word.end(), '-', '_');
         const std::string whole = program;
-        program += '_' + std::string(argv[1]);
-        std::replace(program.begin(), program.end(), '-', '_');
+        program += '_' + word;
         if (!exists(4)) program = whole;
     }
     int lanes = 0;
