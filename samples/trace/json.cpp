@@ -1,8 +1,8 @@
-#include <bit>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
+#include "relief/bits.h"
 #include "trace/tell.h"
 #include "trace/words.h"
 
@@ -38,7 +38,7 @@ Json jsonOf(const t::QuadValue& value, int pixel)
         } else if (value.kind == t::ValueKind::integer) {
             list.push_back(static_cast<std::int32_t>(word));
         } else {
-            list.push_back(numberOf(std::bit_cast<float>(word)));
+            list.push_back(numberOf(bitCast<float>(word)));
         }
     }
     return list;

@@ -1,12 +1,13 @@
 #include "relief/check/compare.h"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
+
+#include "relief/bits.h"
 
 namespace relief {
 
@@ -21,7 +22,7 @@ std::uint64_t distance(Channel a, Channel b)
 // Steps from one float to the next: the bits of a float, taken as a number with a sign, are in the floats' order.
 std::uint64_t distance(float a, float b)
 {
-    const auto bitsA = std::bit_cast<std::uint32_t>(a), bitsB = std::bit_cast<std::uint32_t>(b);
+    const auto bitsA = bitCast<std::uint32_t>(a), bitsB = bitCast<std::uint32_t>(b);
     if (bitsA == bitsB) return 0;
     if (a != a || b != b) return std::uint64_t{1} << 32;
     const auto ordered = [](std::uint32_t bits) {

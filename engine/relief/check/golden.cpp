@@ -1,11 +1,11 @@
 #include "relief/check/golden.h"
 
-#include <bit>
 #include <cmath>
 #include <system_error>
 #include <variant>
 #include <vector>
 
+#include "relief/bits.h"
 #include "relief/check/hash.h"
 #include "relief/file.h"
 #include "relief/path.h"
@@ -39,12 +39,12 @@ std::vector<float> floatsOf(const Framebuffer& target, int attachment, Format fo
     std::vector<float> all;
     for (const std::uint32_t word : target.words(attachment)) {
         if (format == Format::rgba32f) {
-            all.push_back(std::bit_cast<float>(word));
+            all.push_back(bitCast<float>(word));
         } else if (format == Format::rgba16f) {
             for (const std::uint32_t half : {word & 0xffffu, word >> 16})
                 all.push_back(fromHalf(Int(static_cast<int>(half)))[0]);
         } else {
-            all.insert(all.end(), 3, std::bit_cast<float>(word));
+            all.insert(all.end(), 3, bitCast<float>(word));
             all.push_back(1.0f);
         }
     }

@@ -1,0 +1,141 @@
+// What makes a page of docs/ a page of the site: a stage's picture becomes one that can be touched, commands become
+// buttons, figures are drawn inline, and links lead to where the site keeps what they name.
+import fs from 'node:fs'
+import path from 'node:path'
+import { root, stages } from './stages.mjs'
+
+const escaped = (text) => text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;').replace(/"/g, '&quot;')
+const stageOfGolden = (file) => {
+  const [, folder, stem] = file.match(/^tests\/golden\/(\w+)\/(\w+)\.png$/) ?? []
+  return stages.find((stage) => stage.folder === folder && stage.stem === stem)
+}
+
+export const base = process.env.RELIEF_BOOK_BASE ?? '/'
+
+// Files that pages link to and that are not pages: the site has copies of them under source/.
+export const linkedFiles = new Set()
+
+// A page's address on the site, from its file in the repository.
+export const pageOf = (file) =>
+  file === 'docs/README.md' ? 'index.md'
+    : file === 'docs/zh/README.md' ? 'zh/index.md'
+      : file === 'README.md' ? 'project.md'
+        : file.startsWith('docs/') ? file.slice(5).replace(/(^|\/)README\.md$/, '$1index.md')
+          : file.replace(/(^|\/)README\.md$/, '$1index.md')
+
+const isPage = (file) => file.endsWith('.md') && fs.existsSync(path.join(root, file))
+
+function resolved(env, href) {
+  const [target, hash = ''] = href.split(/(?=#)/)
+  const file = path.posix.normalize(path.posix.join(path.posix.dirname(env.file), target))
+  if (isPage(file)) return '/' + pageOf(file) + hash
+  if (fs.existsSync(path.join(root, file)) && fs.statSync(path.join(root, file)).isDirectory()) {
+    return isPage(file + '/README.md') ? '/' + pageOf(file + '/README.md') + hash : null
+  }
+  if (!fs.existsSync(path.join(root, file))) return href
+  linkedFiles.add(file)
+  return '/source/' + file + (/\.(png|svg|glb|html|json)$/.test(file) ? '' : '.txt')
+}
+
+// `./relief render 1.08 --set lightYaw=90 --show depth` as what a player can be told; null where it is another program's.
+export function commandOf(line) {
+  const words = line.trim().split(/\s+/)
+  if (words[0] !== './relief' || words[1] !== 'render') return null
+  const command = { stage: '', settings: [], view: '' }
+  for (let i = 2; i < words.length; ++i) {
+    if (words[i] === '--set') command.settings.push(words[++i])
+    else if (words[i] === '--show' && !words[i + 1].includes('@')) command.view = words[++i]
+    else if (words[i] === '-o' || words[i] === '--size') ++i
+    else if (words[i].startsWith('-') || command.stage !== '') return null
+    else command.stage = words[i]
+  }
+  const stage = stages.find((s) => command.stage === s.id || command.stage === s.stem || command.stage === s.stem.slice(3) ||
+    command.stage === s.id.replace('.0', '.'))
+  return stage === undefined ? null : { ...command, stage: stage.id }
+}
+
+// A figure's text, without its own style: the site's follows its light and dark.
+function figure(file, alt) {
+  const svg = fs.readFileSync(path.join(root, file), 'utf8')
+  return svg.replace(/<\?xml[^>]*>/, '').replace(/<style>[\s\S]*?<\/style>/, '')
+    .replace('<svg', `<svg role="img" aria-label="${escaped(alt)}"`)
+}
+
+export default function relief(md) {
+  // VitePress hands the page's file over with each text.
+  md.core.ruler.before('normalize', 'relief-file', (state) => {
+    state.env.file = path.posix.relative(root, state.env.realPath ?? state.env.path)
+  })
+
+  md.core.ruler.push('relief-links', (state) => {
+    const tokens = state.tokens.flatMap((token) => token.children ?? [])
+    for (const token of tokens) {
+      if (token.type !== 'link_open') continue
+      const href = token.attrGet('href')
+      if (/^([a-z]+:|#|\/)/.test(href)) continue
+      const target = resolved(state.env, decodeURI(href))
+      if (target === null) token.attrs = [['class', 'no-page']]
+      else token.attrSet('href', target)
+      if (target?.startsWith('/source/')) token.attrSet('target', '_blank')
+    }
+  })
+
+  // The same for what is written as HTML.
+  const html = (rule) => (tokens, index, options, env, self) => rule(tokens, index, options, env, self)
+    .replace(/(href)="([^"]+)"/g, (all, name, href) => {
+      const target = /^([a-z]+:|#|\/)/.test(href) ? href : resolved(env, href)
+      return target === null ? '' : `${name}="${target.startsWith('/') ? base + target.slice(1).replace(/\.md(?=#|$)/, '.html') : target}"`
+    })
+    .replace(/src="(?![a-z]+:|\/|\.)/g, 'src="./')
+  md.renderer.rules.html_block = html(md.renderer.rules.html_block)
+  md.renderer.rules.html_inline = html(md.renderer.rules.html_inline)
+
+  // A picture alone in its paragraph stands for itself: what takes its place holds blocks.
+  md.core.ruler.push('relief-pictures', (state) => {
+    state.tokens.forEach((token, i) => {
+      const isPicture = token.type === 'inline' && token.children.length === 1 && token.children[0].type === 'image'
+      if (isPicture && state.tokens[i - 1]?.type === 'paragraph_open') {
+        state.tokens[i - 1].hidden = state.tokens[i + 1].hidden = true
+      }
+    })
+  })
+
+  const image = md.renderer.rules.image
+  md.renderer.rules.image = (tokens, index, options, env, self) => {
+    const token = tokens[index]
+    const src = token.attrGet('src')
+    if (/^[a-z]+:/.test(src)) return image(tokens, index, options, env, self)
+    const file = path.posix.normalize(path.posix.join(path.posix.dirname(env.file), decodeURI(src)))
+    const alt = token.content
+    const stage = stageOfGolden(file)
+    const isStagesPage = stage !== undefined && env.file.endsWith(`${stage.folder}/${stage.stem}.md`)
+    if (isStagesPage && !env.hasPlayer) {
+      env.hasPlayer = true
+      const before = stage.before === null ? '' : ` before="${stage.before}"`
+      return `<StagePlayer stage="${stage.id}"${before} hash="${stage.hash}" source="${stage.folder}/${stage.stem}.cpp">` +
+        image(tokens, index, options, env, self) + '</StagePlayer>'
+    }
+    if (file.endsWith('.svg')) {
+      const name = path.basename(file, '.svg')
+      const drawn = `<span class="figure" v-pre>${figure(file, alt)}</span>`
+      return name.startsWith('start_') ? `<LiveFigure name="${name}" alt="${escaped(alt)}">${drawn}</LiveFigure>` : drawn
+    }
+    return image(tokens, index, options, env, self)
+  }
+
+  // Indented code is as it stands, braces too.
+  const block = md.renderer.rules.code_block
+  md.renderer.rules.code_block = (...all) => block(...all).replace('<pre', '<pre v-pre')
+
+  const fence = md.renderer.rules.fence
+  md.renderer.rules.fence = (tokens, index, options, env, self) => {
+    const html = fence(tokens, index, options, env, self)
+    const token = tokens[index]
+    if (token.info !== '' || !env.hasPlayer) return html
+    const commands = token.content.split('\n').map((line) => ({ line: line.trim(), command: commandOf(line) }))
+      .filter(({ command }) => command !== null)
+    if (commands.length === 0) return html
+    return html + `<TryCommands :commands='${JSON.stringify(commands.map(({ line, command }) => ({ line, ...command })))
+      .replace(/'/g, '&#39;')}' />`
+  }
+}

@@ -1,0 +1,14 @@
+import DefaultTheme from 'vitepress/theme'
+import LiveFigure from './LiveFigure.vue'
+import StagePlayer from './StagePlayer.vue'
+import TryCommands from './TryCommands.vue'
+import './style.css'
+
+export default {
+  extends: DefaultTheme,
+  enhanceApp({ app }) {
+    app.component('LiveFigure', LiveFigure)
+    app.component('StagePlayer', StagePlayer)
+    app.component('TryCommands', TryCommands)
+  }
+}

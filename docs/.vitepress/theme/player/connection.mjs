@@ -1,0 +1,28 @@
+// A worker and its answers, as promises.
+export class Connection {
+  constructor(address) {
+    this.worker = new Worker(address, { type: 'module' })
+    this.waiting = new Map()
+    this.next = 0
+    this.worker.addEventListener('message', ({ data }) => {
+      const { resolve, reject } = this.waiting.get(data.id)
+      this.waiting.delete(data.id)
+      if (data.error === undefined) resolve(data)
+      else reject(new Error(data.error))
+    })
+    this.worker.addEventListener('error', (event) => {
+      for (const { reject } of this.waiting.values()) reject(new Error(event.message || 'the worker does not start'))
+      this.waiting.clear()
+    })
+  }
+
+  ask(call, words = {}) {
+    return new Promise((resolve, reject) => {
+      const id = this.next++
+      this.waiting.set(id, { resolve, reject })
+      this.worker.postMessage({ id, call, ...words })
+    })
+  }
+
+  end() { this.worker.terminate() }
+}
