@@ -47,7 +47,8 @@ function copyFiles(out) {
     copy(path.join(root, file), 'source/' + file + (/\.(png|svg|glb|html|json)$/.test(file) ? '' : '.txt'))
   }
   for (const file of fs.readdirSync(path.join(build, 'web/book'))) copy(path.join(build, 'web/book', file), 'player/' + file)
-  copy(path.join(docs, '.vitepress/theme/player/worker.js'), 'player/worker.js')
+  for (const file of fs.readdirSync(path.join(build, 'web/compiler'))) copy(path.join(build, 'web/compiler', file), 'player/compiler/' + file)
+  for (const file of ['worker.js', 'compiler.js']) copy(path.join(docs, '.vitepress/theme/player', file), 'player/' + file)
 }
 
 // Pages find the libraries where this file does.

@@ -58,7 +58,7 @@ export function commandOf(line) {
 function figure(file, alt) {
   const svg = fs.readFileSync(path.join(root, file), 'utf8')
   return svg.replace(/<\?xml[^>]*>/, '').replace(/<style>[\s\S]*?<\/style>/, '')
-    .replace('<svg', `<svg role="img" aria-label="${escaped(alt)}"`)
+    .replace(/<svg[^>]*>/, (head) => head.replace(/ (role|aria-[a-z]+)="[^"]*"/g, '').replace('<svg', `<svg role="img" aria-label="${escaped(alt)}"`))
 }
 
 export default function relief(md) {

@@ -1,8 +1,9 @@
 // The stages of the book, from the files that the programs are built from.
 import fs from 'node:fs'
 import path from 'node:path'
+import { fileURLToPath } from 'node:url'
 
-export const root = path.resolve(import.meta.dirname, '../..')
+export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..')
 const read = (file) => fs.readFileSync(path.join(root, file), 'utf8')
 
 // [{id: '1.08', stem: '08_along_v', folder: 'bumpiness', title: 'Along v', hash, before: '1.07' or null}], in order.

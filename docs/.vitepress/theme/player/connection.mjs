@@ -1,10 +1,11 @@
-// A worker and its answers, as promises.
+// A worker and its answers, as promises. What it says unasked goes to `hear`.
 export class Connection {
-  constructor(address) {
+  constructor(address, hear = () => {}) {
     this.worker = new Worker(address, { type: 'module' })
     this.waiting = new Map()
     this.next = 0
     this.worker.addEventListener('message', ({ data }) => {
+      if (data.id === undefined) return hear(data)
       const { resolve, reject } = this.waiting.get(data.id)
       this.waiting.delete(data.id)
       if (data.error === undefined) resolve(data)

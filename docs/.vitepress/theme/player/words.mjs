@@ -8,7 +8,12 @@ const en = {
   reset: 'reset', compare: (id) => `compare with ${id}`, compareHint: (id) => `left of the line: ${id}`, inside: 'look inside', color: 'the picture',
   pixel: 'ask a pixel', pixelHint: 'Click a pixel, or move the cross by the arrow keys and press Enter.', life: (x, y) => `The life of pixel ${x},${y}`,
   telling: 'asking the pixel …', close: 'close', properties: 'properties', share: 'link to this picture', shared: 'The address of this page now leads to this picture.',
-  frame: (ms, w, h) => `${w} × ${h} in ${ms} ms`, tryIt: 'show it', tried: 'shown above', source: 'the whole source', behind: 'This translation is behind the English page.'
+  frame: (ms, w, h) => `${w} × ${h} in ${ms} ms`, tryIt: 'show it', tried: 'shown above', source: 'the whole source', edit: 'edit this shader',
+  editorLabel: (file) => `Editor of ${file}`, compile: 'compile (Ctrl+Enter)', compiling: 'compiling …', restore: 'as it was', compiled: (ms) => `compiled in ${(ms / 1000).toFixed(1)} s`,
+  errors: (n) => n === 1 ? 'one error' : `${n} errors`, loadingCompiler: (mb, of) => `loading the compiler: ${mb} of ${of} MB, once`,
+  editorHint: 'This is the stage’s own file. It is compiled here, in your browser, by clang; nothing is sent anywhere. Tab leaves the editor after Escape.',
+  edited: (hash, isGolden) => isGolden ? `Your shader gives the golden, bit for bit: hash ${hash}.` : `Your shader’s picture at rest has the hash ${hash}.`,
+  endless: 'The shader did not end within 20 s and was stopped. Look for a loop that does not end.'
 }
 const zh = {
   loading: '正在载入……', failed: (why) => `此步骤无法在这里运行：${why}。上面是它的基准图。`,
@@ -19,6 +24,11 @@ const zh = {
   reset: '复位', compare: (id) => `与 ${id} 对比`, compareHint: (id) => `分界线左侧：${id}`, inside: '查看内部', color: '画面',
   pixel: '询问像素', pixelHint: '点击一个像素，或用方向键移动十字并按回车。', life: (x, y) => `像素 ${x},${y} 的一生`,
   telling: '正在询问像素……', close: '关闭', properties: '属性', share: '此画面的链接', shared: '本页地址现在指向此画面。',
-  frame: (ms, w, h) => `${w} × ${h}，${ms} 毫秒`, tryIt: '显示', tried: '已在上方显示', source: '完整源代码', behind: '此译文落后于英文页面。'
+  frame: (ms, w, h) => `${w} × ${h}，${ms} 毫秒`, tryIt: '显示', tried: '已在上方显示', source: '完整源代码', edit: '编辑此着色器',
+  editorLabel: (file) => `${file} 的编辑器`, compile: '编译（Ctrl+Enter）', compiling: '正在编译……', restore: '恢复原样', compiled: (ms) => `编译用时 ${(ms / 1000).toFixed(1)} 秒`,
+  errors: (n) => `${n} 个错误`, loadingCompiler: (mb, of) => `正在载入编译器：${mb} / ${of} MB，只需一次`,
+  editorHint: '这是此步骤自己的源文件。它由 clang 在你的浏览器里编译，不会发送到任何地方。按 Escape 后再按 Tab 可离开编辑器。',
+  edited: (hash, isGolden) => isGolden ? `你的着色器与基准图逐位相同：哈希 ${hash}。` : `你的着色器静止时画面的哈希是 ${hash}。`,
+  endless: '着色器在 20 秒内没有结束，已被停止。请检查是否有不会结束的循环。'
 }
 export const wordsOf = (lang) => lang.startsWith('zh') ? zh : en

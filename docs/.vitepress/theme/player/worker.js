@@ -23,8 +23,8 @@ class Player {
     return answer
   }
 
-  static async open(createModule, stage) {
-    const player = new Player(await createModule())
+  static async open(createModule, stage, options = {}) {
+    const player = new Player(await createModule(options))
     player.description = JSON.parse(player.call('open', ['string'], [stage]))
     player.module.FS.mkdir('/assets')
     const bytes = await Promise.all(player.description.files.map(fileOf))
@@ -62,6 +62,13 @@ function playerOf(program, stage) {
 }
 
 const calls = {
+  // A stage that was compiled in the page takes the place of the last one.
+  async edit({ stage, wasm }) {
+    const { default: create } = await import(new URL('relief_web.mjs', folder))
+    players.set('edited ' + stage, Player.open(create, stage, { wasmBinary: wasm }))
+    const player = await playerOf('edited', stage)
+    return { ...player.description, views: player.views }
+  },
   async open({ program, stage }) {
     const player = await playerOf(program, stage)
     return { ...player.description, views: player.views }
