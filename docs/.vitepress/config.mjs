@@ -48,6 +48,7 @@ function copyFiles(out) {
   }
   for (const file of fs.readdirSync(path.join(build, 'web/book'))) copy(path.join(build, 'web/book', file), 'player/' + file)
   for (const file of fs.readdirSync(path.join(build, 'web/compiler'))) copy(path.join(build, 'web/compiler', file), 'player/compiler/' + file)
+  copy(path.join(docs, '.vitepress/theme/icon.svg'), 'icon.svg')
   for (const file of ['worker.js', 'compiler.js']) copy(path.join(docs, '.vitepress/theme/player', file), 'player/' + file)
 }
 
@@ -69,6 +70,7 @@ export default defineConfig({
   base,
   rewrites: (file) => pageOf(file),
   title: 'Relief',
+  head: [['link', { rel: 'icon', href: base + 'icon.svg', type: 'image/svg+xml' }]],
   cleanUrls: false,
   lastUpdated: false,
   locales: {

@@ -3,6 +3,7 @@
 import fs from 'node:fs'
 import path from 'node:path'
 import { root, stages } from './stages.mjs'
+import { problemOf } from './translations.mjs'
 
 const escaped = (text) => text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;').replace(/"/g, '&quot;')
 const stageOfGolden = (file) => {
@@ -80,6 +81,15 @@ export default function relief(md) {
     }
   })
 
+  // A translation that is behind says so above its text.
+  md.core.ruler.push('relief-behind', (state) => {
+    const page = state.env.file.match(/^docs\/zh\/(.*)$/)?.[1]
+    if (page === undefined || problemOf(page) === '') return
+    const token = new state.Token('html_block', '', 0)
+    token.content = '<p class="behind">此译文落后于英文页面。</p>\n'
+    state.tokens.splice(state.tokens.findIndex(({ type }) => type === 'heading_close') + 1, 0, token)
+  })
+
   // The same for what is written as HTML.
   const html = (rule) => (tokens, index, options, env, self) => rule(tokens, index, options, env, self)
     .replace(/(href)="([^"]+)"/g, (all, name, href) => {
@@ -123,6 +133,20 @@ export default function relief(md) {
     return image(tokens, index, options, env, self)
   }
 
+  // Before "What to try": the stage's whole source, its new lines highlighted.
+  md.core.ruler.push('relief-source', (state) => {
+    const stage = stages.find(({ folder, stem }) => state.env.file.endsWith(`/${folder}/${stem}.md`))
+    const at = state.tokens.findIndex((token, i) => token.type === 'heading_open' && ['What to try', '试一试'].includes(state.tokens[i + 1].content))
+    if (stage === undefined || at < 0) return
+    const code = fs.readFileSync(path.join(root, 'samples', stage.folder, stage.stem + '.cpp'), 'utf8')
+    const news = code.split('\n').flatMap((line, i) => line.endsWith('// new') ? [i + 1] : [])
+    const token = new state.Token('fence', 'code', 0)
+    token.content = code.replace(/ +\/\/ new$/gm, '')
+    token.info = `cpp:line-numbers{${news.join(',')}}`
+    token.meta = { source: `${stage.folder}/${stage.stem}.cpp` }
+    state.tokens.splice(at, 0, token)
+  })
+
   // Indented code is as it stands, braces too.
   const block = md.renderer.rules.code_block
   md.renderer.rules.code_block = (...all) => block(...all).replace('<pre', '<pre v-pre')
@@ -131,6 +155,7 @@ export default function relief(md) {
   md.renderer.rules.fence = (tokens, index, options, env, self) => {
     const html = fence(tokens, index, options, env, self)
     const token = tokens[index]
+    if (token.meta?.source) return `<details class="details source"><summary><code>${token.meta.source}</code></summary>${html}</details>`
     if (token.info !== '' || !env.hasPlayer) return html
     const commands = token.content.split('\n').map((line) => ({ line: line.trim(), command: commandOf(line) }))
       .filter(({ command }) => command !== null)
