@@ -12,7 +12,7 @@ const build = path.join(root, 'build')
 const title = (file) => fs.readFileSync(path.join(root, file), 'utf8').match(/^# (.*)/m)[1]
 const startPages = fs.existsSync(path.join(docs, 'start')) ? fs.readdirSync(path.join(docs, 'start')).filter((f) => f.endsWith('.md')).sort() : []
 const topics = ['change_something', 'look_inside', 'life_of_a_pixel', 'your_own_files', 'programs', 'porting', 'library', 'check',
-  'performance', 'machines', 'many_machines', 'triplanar_signs', 'glossary']
+  'performance', 'machines', 'many_machines', 'triplanar_signs', 'glossary', 'terms']
 
 // A page is in the other language where its file is there.
 function sidebar(language) {

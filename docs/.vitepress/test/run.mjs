@@ -54,6 +54,7 @@ const changed = (page, before) => page.waitForFunction((before) => {
 
 const parts = {
   async pages() {
+    const anchors = new Map()  // texts of pages, by their files
     for (const name of pages) {
       const page = await pageOf(name)
       const broken = await page.evaluate(() => [...document.images].filter((image) => image.loading !== 'lazy' && image.complete && image.naturalWidth === 0).map((image) => image.src))
@@ -62,7 +63,13 @@ const parts = {
       for (const target of new Set(targets)) {
         if (!target.startsWith(address)) continue
         const file = decodeURIComponent(new URL(target).pathname).slice(1).replace(/(^|\/)$/, '$1index.html')
-        check(fs.existsSync(path.join(folder, file)), `${name}: a link leads nowhere: ${file}`)
+        const isFile = fs.existsSync(path.join(folder, file))
+        check(isFile, `${name}: a link leads nowhere: ${file}`)
+        const anchor = decodeURIComponent(new URL(target).hash.slice(1))
+        if (isFile && anchor !== '') {
+          if (!anchors.has(file)) anchors.set(file, fs.readFileSync(path.join(folder, file), 'utf8'))
+          check(anchors.get(file).includes(`id="${anchor}"`), `${name}: there is no #${anchor} in ${file}`)
+        }
       }
       check(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${name}: is wider than its window`)
       await page.close()

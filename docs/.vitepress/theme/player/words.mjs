@@ -11,7 +11,7 @@ const en = {
   frame: (ms, w, h) => `${w} × ${h} in ${ms} ms`, tryIt: 'show it', tried: 'shown above', source: 'the whole source', edit: 'edit this shader',
   editorLabel: (file) => `Editor of ${file}`, compile: 'compile (Ctrl+Enter)', compiling: 'compiling …', restore: 'as it was', compiled: (ms) => `compiled in ${(ms / 1000).toFixed(1)} s`,
   errors: (n) => n === 1 ? 'one error' : `${n} errors`, loadingCompiler: (mb, of) => `loading the compiler: ${mb} of ${of} MB, once`,
-  editorHint: 'This is the stage’s own file. It is compiled here, in your browser, by clang; nothing is sent anywhere. Tab leaves the editor after Escape.',
+  editorHint: 'This is the stage’s own file. It is compiled here, in your browser, by clang; nothing is sent anywhere.',
   edited: (hash, isGolden) => isGolden ? `Your shader gives the golden, bit for bit: hash ${hash}.` : `Your shader’s picture at rest has the hash ${hash}.`,
   endless: 'The shader did not end within 20 s and was stopped. Look for a loop that does not end.'
 }
@@ -27,7 +27,7 @@ const zh = {
   frame: (ms, w, h) => `${w} × ${h}，${ms} 毫秒`, tryIt: '显示', tried: '已在上方显示', source: '完整源代码', edit: '编辑此着色器',
   editorLabel: (file) => `${file} 的编辑器`, compile: '编译（Ctrl+Enter）', compiling: '正在编译……', restore: '恢复原样', compiled: (ms) => `编译用时 ${(ms / 1000).toFixed(1)} 秒`,
   errors: (n) => `${n} 个错误`, loadingCompiler: (mb, of) => `正在载入编译器：${mb} / ${of} MB，只需一次`,
-  editorHint: '这是此步骤自己的源文件。它由 clang 在你的浏览器里编译，不会发送到任何地方。按 Escape 后再按 Tab 可离开编辑器。',
+  editorHint: '这是此步骤自己的源文件。它由 clang 在你的浏览器里编译，不会发送到任何地方。',
   edited: (hash, isGolden) => isGolden ? `你的着色器与基准图逐位相同：哈希 ${hash}。` : `你的着色器静止时画面的哈希是 ${hash}。`,
   endless: '着色器在 20 秒内没有结束，已被停止。请检查是否有不会结束的循环。'
 }
