@@ -44,7 +44,9 @@ Expected<Player> Player::open(const std::string& name)
 std::string Player::description() const
 {
     json files = json::array(), properties = json::array();
-    for (const Inputs::TextureInput& texture : source->inputs().textures) {
+    PerTexture<Inputs::TextureInput> textures = source->inputs().textures;
+    textures[TextureSlot::environment].file.clear();  // it is made, not read
+    for (const Inputs::TextureInput& texture : textures) {
         const bool isNew = std::find(files.begin(), files.end(), texture.file) == files.end();
         if (!texture.file.empty() && texture.file != kNone && isNew) files.push_back(texture.file);
     }

@@ -204,7 +204,8 @@ const parts = {
     const frame = await (await page.waitForSelector('.life iframe', { timeout: 60000 })).contentFrame()
     const text = await frame.textContent('main')
     for (const name of ['UnpackScaleNormal', 'texel', 'tangentSpaceNormal', 'bumpScale'].slice(0, 2)) check(text.includes(name), `the life of a pixel does not speak of ${name}`)
-    check(/stored: \d+ \d+ \d+ 255/.test(await frame.textContent('aside')), 'the life of a pixel does not end at its bytes')
+    const stored = await frame.textContent('aside')
+    check(/stored: #[0-9a-f]{6}, alpha ff/.test(stored), `the life of a pixel does not end at its bytes: ${stored}`)
     await page.close()
     return 'told'
   },
@@ -275,7 +276,8 @@ const parts = {
       for (const [word, target] of words) {
         await page.keyboard.press('Control+k')
         await page.fill('.VPLocalSearchBox input', word)
-        await page.waitForTimeout(400)
+        await page.waitForSelector('.VPLocalSearchBox .result', { timeout: 10000 }).catch(() => {})
+        await page.waitForTimeout(300)
         const found = await page.evaluate(() => [...document.querySelectorAll('.VPLocalSearchBox .result')].map((a) => a.getAttribute('href')))
         check(found.some((href) => href.includes(target)), `search for ${word}: no ${target} among ${found.slice(0, 5)}`)
         await page.keyboard.press('Escape')
