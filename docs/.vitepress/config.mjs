@@ -111,7 +111,9 @@ export default defineConfig({
       }
     }
   },
-  markdown: { math: true, config: (md) => md.use(relief), languages: [{ name: 'trace', scopeName: 'text.trace', patterns: [] }] },
+  markdown: {
+    math: true, theme: { light: 'github-light-high-contrast', dark: 'github-dark-high-contrast' },
+    config: (md) => md.use(relief), languages: [{ name: 'trace', scopeName: 'text.trace', patterns: [] }] },
   vite: { plugins: [libraries], build: { chunkSizeWarningLimit: 2000 } },
   buildEnd: ({ outDir }) => copyFiles(outDir)
 })
