@@ -12,7 +12,7 @@ const build = path.join(root, 'build')
 const title = (file) => fs.readFileSync(path.join(root, file), 'utf8').match(/^# (.*)/m)[1]
 const startPages = fs.existsSync(path.join(docs, 'start')) ? fs.readdirSync(path.join(docs, 'start')).filter((f) => f.endsWith('.md')).sort() : []
 const topics = ['change_something', 'look_inside', 'life_of_a_pixel', 'your_own_files', 'programs', 'porting', 'library', 'check',
-  'performance', 'machines', 'many_machines', 'triplanar_signs', 'glossary', 'terms']
+  'performance', 'machines', 'many_machines', 'triplanar_signs', 'glossary', 'terms', 'site']
 
 // A page is in the other language where its file is there.
 function sidebar(language) {
@@ -113,7 +113,8 @@ export default defineConfig({
   },
   markdown: {
     math: true, theme: { light: 'github-light-high-contrast', dark: 'github-dark-high-contrast' },
-    config: (md) => md.use(relief), languages: [{ name: 'trace', scopeName: 'text.trace', patterns: [] }] },
+    config: (md) => md.use(relief), languages: [{ name: 'trace', scopeName: 'text.trace', patterns: [] }]
+  },
   vite: { plugins: [libraries], build: { chunkSizeWarningLimit: 2000 } },
   buildEnd: ({ outDir }) => copyFiles(outDir)
 })

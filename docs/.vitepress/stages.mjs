@@ -28,7 +28,7 @@ export const chapters = (() => {
     bumpiness: ['1 Bumpiness', '1 凹凸'],
     bumpy_surfaces: ['2 Bumpy surfaces', '2 凹凸表面'],
     normal_maps: ['3 Normal maps', '3 法线贴图'],
-    triplanar: ['4 Triplanar', '4 三面映射'],
+    triplanar: ['4 Triplanar', '4 三平面'],
     beyond: ['5 Beyond', '5 更进一步']
   }
   return Object.entries(titles).map(([folder, [en, zh]]) => ({

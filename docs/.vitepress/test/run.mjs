@@ -3,7 +3,9 @@
 // The search in both languages. Prints a line a part, and what went wrong; exit code 1 where anything did.
 import fs from 'node:fs'
 import path from 'node:path'
+import { execFileSync } from 'node:child_process'
 import { createRequire } from 'node:module'
+import { fileURLToPath } from 'node:url'
 import { chromium } from 'playwright-core'
 import { serve } from '../serve.mjs'
 import { stages } from '../stages.mjs'
@@ -53,6 +55,11 @@ const changed = (page, before) => page.waitForFunction((before) => {
 }, before, { timeout: 30000 })
 
 const parts = {
+  async translations() {
+    const said = execFileSync('node', [fileURLToPath(new URL('../translations.mjs', import.meta.url))], { encoding: 'utf8' }).trim()
+    return said
+  },
+
   async pages() {
     const anchors = new Map()  // texts of pages, by their files
     for (const name of pages) {

@@ -38,12 +38,12 @@ globalThis.fetch = (address, options) => {
 const bytesOf = async (name) => new Uint8Array(await (await fetched(name)).arrayBuffer())
 
 function treeOf(files) {
-  const tree = {}
+  const tree = {}, encoder = new TextEncoder()
   for (const [name, text] of Object.entries(files)) {
     const parts = name.split('/')
     let at = tree
     for (const part of parts.slice(0, -1)) at = at[part] ??= {}
-    at[parts.at(-1)] = text
+    at[parts.at(-1)] = encoder.encode(text)
   }
   return tree
 }
