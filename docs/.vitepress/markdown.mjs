@@ -1,4 +1,4 @@
-// What makes a page of docs/ a page of the site: a stage's picture becomes one that can be touched, commands become
+// What makes a page of docs/ a page of the site: a page's first picture of a stage becomes one that can be touched, commands become
 // buttons, figures are drawn inline, and links lead to where the site keeps what they name.
 import fs from 'node:fs'
 import path from 'node:path'
@@ -118,8 +118,8 @@ export default function relief(md) {
     const file = path.posix.normalize(path.posix.join(path.posix.dirname(env.file), decodeURI(src)))
     const alt = token.content
     const stage = stageOfGolden(file)
-    const isStagesPage = stage !== undefined && env.file.endsWith(`${stage.folder}/${stage.stem}.md`)
-    if (isStagesPage && !env.hasPlayer) {
+    const standsAlone = tokens.length === 1
+    if (stage !== undefined && standsAlone && !env.hasPlayer) {
       env.hasPlayer = true
       const before = stage.before === null ? '' : ` before="${stage.before}"`
       return `<StagePlayer stage="${stage.id}"${before} hash="${stage.hash}" source="${stage.folder}/${stage.stem}.cpp">` +
