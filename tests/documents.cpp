@@ -1,5 +1,7 @@
 // The documents and the tree: every stage has its page and its golden, every page its stage, every relative link leads
 // somewhere, and the folders of the engine depend downwards only.
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -11,6 +13,7 @@
 #include <doctest/doctest.h>
 
 #include "common/stage.h"
+#include "relief/texture/image.h"
 #include "stages/page_diff.h"
 
 namespace {
@@ -112,6 +115,39 @@ TEST_CASE("documents: the pages show the difference to the stage before as it is
         ++checked;
     }
     CHECK(checked >= 26);
+}
+
+TEST_CASE("documents: neighbours can be told apart, or the page shows the difference beside them")
+{
+    const auto picture = [](const Stage& s) {
+        return relief::readImage((kSource / "tests/golden" / s.folder / (s.stem + ".png")).string());
+    };
+    for (std::size_t i = 1; i < allStages().size(); ++i) {
+        const Stage &before = allStages()[i - 1], &stage = allStages()[i];
+        if (before.folder != stage.folder) continue;
+        CAPTURE(stage.id);
+        const relief::Expected<relief::ImageFile> first = picture(before), second = picture(stage);
+        REQUIRE(first.has_value());
+        REQUIRE(second.has_value());
+        const auto &a = std::get<relief::Image8>(*first), &b = std::get<relief::Image8>(*second);
+        REQUIRE(a.pixels.size() == b.pixels.size());
+        int drawn = 0, different = 0;  // pixels: not the background's in both; by 8 codes or more
+        for (std::size_t at = 0; at < a.pixels.size(); at += 4) {
+            int largest = 0;
+            bool isBackground = true;
+            for (std::size_t c = 0; c < 3; ++c) {
+                largest = std::max(largest, std::abs(a.pixels[at + c] - b.pixels[at + c]));
+                isBackground = isBackground && a.pixels[at + c] == a.pixels[c] && b.pixels[at + c] == a.pixels[c];
+            }
+            drawn += !isBackground;
+            different += largest >= 8;
+        }
+        const double percent = 100.0 * different / drawn;
+        CAPTURE(percent);
+        const std::string page = contents(kSource / "docs" / stage.folder / (stage.stem + ".md"));
+        const bool isEqualByDesign = stage.id == "3.03";
+        CHECK((percent >= 10.0 || isEqualByDesign || page.find("](../pictures/") != std::string::npos));
+    }
 }
 
 TEST_CASE("documents: a difference is the changed lines and two around them")
