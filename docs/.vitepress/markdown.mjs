@@ -119,8 +119,8 @@ export default function relief(md) {
     const alt = token.content
     const stage = stageOfGolden(file)
     const standsAlone = tokens.length === 1
-    if (stage !== undefined && standsAlone && !env.hasPlayer) {
-      env.hasPlayer = true
+    if (stage !== undefined && standsAlone && env.player === undefined) {
+      env.player = stage
       const before = stage.before === null ? '' : ` before="${stage.before}"`
       return `<StagePlayer stage="${stage.id}"${before} hash="${stage.hash}" source="${stage.folder}/${stage.stem}.cpp">` +
         image(tokens, index, options, env, self) + '</StagePlayer>'
@@ -156,9 +156,9 @@ export default function relief(md) {
     const html = fence(tokens, index, options, env, self)
     const token = tokens[index]
     if (token.meta?.source) return `<details class="details source"><summary><code>${token.meta.source}</code></summary>${html}</details>`
-    if (token.info !== '' || !env.hasPlayer) return html
+    if (token.info !== '' || env.player === undefined) return html
     const commands = token.content.split('\n').map((line) => ({ line: line.trim(), command: commandOf(line) }))
-      .filter(({ command }) => command !== null)
+      .filter(({ command }) => command !== null && [env.player.id, env.player.before].includes(command.stage))
     if (commands.length === 0) return html
     return html + `<TryCommands :commands='${JSON.stringify(commands.map(({ line, command }) => ({ line, ...command })))
       .replace(/'/g, '&#39;')}' />`
