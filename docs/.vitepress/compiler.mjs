@@ -12,6 +12,7 @@ import { fileURLToPath } from 'node:url'
 import zlib from 'node:zlib'
 import { commands } from '@yowasp/clang'
 import { root } from './stages.mjs'
+import { run, treeOf } from './theme/player/llvm.mjs'
 
 const build = path.resolve(process.argv[2])
 const out = path.join(build, 'compiler')
@@ -32,6 +33,7 @@ const flags = [
 ]
 const exported = [...fs.readFileSync(path.join(root, 'samples/web/exports.cpp'), 'utf8').replace(/#ifdef RELIEF_WEB_TRACE[\s\S]*?#endif/g, '')
   .matchAll(/EMSCRIPTEN_KEEPALIVE.* \*?(relief_\w+)\(/g)].map((match) => match[1])
+const registry = fs.readFileSync(path.join(root, 'samples/common/registry.cpp.in'), 'utf8')
 const linking = [
   '--import-undefined', '--no-stack-first', '--strip-debug', '--export-if-defined=__start_em_asm', '--export-if-defined=__stop_em_asm',
   ...['stackSave', 'stackRestore', 'stackAlloc', '__wasm_call_ctors', '__errno_location', 'malloc', 'free', ...exported].map((name) => '--export=' + name),
@@ -54,10 +56,8 @@ for (const entry of fs.readdirSync(path.join(sysroot, 'include'))) {
   if (fs.statSync(file).isDirectory()) add(file, 'sysroot/include/' + entry)
   else headers['sysroot/include/' + entry] = fs.readFileSync(file, 'utf8')
 }
-const projects = (folder, to) => add(path.join(root, folder), to, (text) => text)
-projects('engine/relief', 'relief/engine/relief')
-projects('samples/common', 'relief/samples/common')
-projects('samples/web', 'relief/samples/web')
+add(path.join(root, 'engine/relief'), 'relief/engine/relief')
+add(path.join(root, 'samples/common'), 'relief/samples/common')
 for (const name of Object.keys(headers)) {
   if (name.startsWith('relief/') && !name.endsWith('.h')) delete headers[name]
 }
@@ -66,34 +66,12 @@ add('/usr/include/glm', 'relief/libraries/glm', (text, name) => text.replace(/#(
   (all, space, file) => `#${space}include <${path.posix.relative('relief/libraries', path.posix.join(path.posix.dirname(name), file))}>`))
 add('/usr/include/tl', 'relief/libraries/tl')
 
-function treeOf(files) {
-  const tree = {}
-  for (const [name, text] of Object.entries(files)) {
-    const parts = name.split('/')
-    let folder = tree
-    for (const part of parts.slice(0, -1)) folder = folder[part] ??= {}
-    folder[parts.at(-1)] = text
-  }
-  return tree
-}
-
-async function run(program, words, files) {
-  let said = ''
-  const listen = (bytes) => { if (bytes) said += new TextDecoder().decode(bytes) }
-  try {
-    return await commands[program](words, files, { stdout: listen, stderr: listen, fetchProgress: () => {} })
-  } catch (error) {
-    console.error(`${program} ${words.join(' ')}\n${said}${error.message}`)
-    process.exit(1)
-  }
-}
-
 // --- what is there already is not made again ---
 
 const objects = ['samples/web/CMakeFiles/relief_web.dir/exports.cpp.o', 'samples/web/librelief_player.a', 'samples/librelief_common.a',
   ...fs.readdirSync(path.join(build, 'engine')).filter((name) => name.endsWith('.a')).map((name) => 'engine/' + name)]
 const read = (file) => new Uint8Array(fs.readFileSync(file))
-const hash = crypto.createHash('sha256').update(JSON.stringify([flags, linking, headers])).update(fs.readFileSync(fileURLToPath(import.meta.url)))
+const hash = crypto.createHash('sha256').update(JSON.stringify([flags, linking, headers, registry])).update(fs.readFileSync(fileURLToPath(import.meta.url)))
 for (const object of objects) hash.update(read(path.join(build, object)))
 const key = hash.digest('hex')
 const stamp = path.join(out, 'made.json')
@@ -108,14 +86,13 @@ function write(name, bytes) {
   sizes[name] = { bytes: bytes.length, packed: packed.length }
 }
 
-const headerTree = treeOf(headers)
-const precompiled = await run('clang++', [...flags, '-x', 'c++-header', '/relief/samples/web/headers.h', '-o', '/headers.pch'], headerTree)
+const precompiled = await run(commands, 'clang++', [...flags, '-x', 'c++-header', '/relief/samples/common/stage_headers.h', '-o', '/headers.pch'], treeOf(headers))
 write('headers.pch', precompiled['headers.pch'])
 
 const inputs = Object.fromEntries(objects.map((object) => [path.basename(object), read(path.join(build, object))]))
 const libraryFiles = Object.fromEntries(libraries.map((name) => [`lib${name}.a`, read(path.join(archives, `lib${name}.a`))]))
 const names = libraries.map((name) => `/lib${name}.a`)
-const base = await run('wasm-ld', ['-r', '-o', '/base.o', '--whole-archive', ...Object.keys(inputs).map((name) => '/' + name), '--no-whole-archive', ...names],
+const base = await run(commands, 'wasm-ld', ['-r', '-o', '/base.o', '--whole-archive', ...Object.keys(inputs).map((name) => '/' + name), '--no-whole-archive', ...names],
   { ...inputs, ...libraryFiles })
 write('base.o', base['base.o'])
 for (const [name, bytes] of Object.entries(libraryFiles)) write(name, bytes)
@@ -141,6 +118,6 @@ for (let at = 0; at + 512 <= tar.length && tar[at] !== 0;) {
 }
 write('llvm-resources.tar', Buffer.concat([...kept, Buffer.alloc(1024)]))
 
-fs.writeFileSync(stamp, JSON.stringify({ key, flags, linking, libraries, sizes }))
+fs.writeFileSync(stamp, JSON.stringify({ key, flags, linking, libraries, registry, sizes }))
 const total = Object.values(sizes).reduce((sum, { packed }) => sum + packed, 0)
 console.log(`the compiler for pages: ${(total / 1e6).toFixed(1)} MB compressed`)

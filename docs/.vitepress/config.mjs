@@ -2,7 +2,7 @@
 import fs from 'node:fs'
 import path from 'node:path'
 import { defineConfig } from 'vitepress'
-import relief, { base, linkedFiles, pageOf } from './markdown.mjs'
+import relief, { base, copyOf, linkedFiles, pageOf } from './markdown.mjs'
 import { tokenize } from './search.mjs'
 import { chapters, root } from './stages.mjs'
 
@@ -10,7 +10,7 @@ const docs = path.join(root, 'docs')
 const build = path.join(root, 'build')
 
 const title = (file) => fs.readFileSync(path.join(root, file), 'utf8').match(/^# (.*)/m)[1]
-const startPages = fs.existsSync(path.join(docs, 'start')) ? fs.readdirSync(path.join(docs, 'start')).filter((f) => f.endsWith('.md')).sort() : []
+const startPages = fs.readdirSync(path.join(docs, 'start')).sort()
 const topics = ['change_something', 'look_inside', 'life_of_a_pixel', 'your_own_files', 'programs', 'porting', 'library', 'check',
   'performance', 'machines', 'many_machines', 'triplanar_signs', 'glossary', 'terms', 'site']
 
@@ -44,12 +44,12 @@ function copyFiles(out) {
     for (const stage of chapter.stages) linkedFiles.add(`samples/${stage.folder}/${stage.stem}.cpp`)
   }
   for (const file of linkedFiles) {
-    copy(path.join(root, file), 'source/' + file + (/\.(png|svg|glb|html|json)$/.test(file) ? '' : '.txt'))
+    copy(path.join(root, file), copyOf(file))
   }
   for (const file of fs.readdirSync(path.join(build, 'web/book'))) copy(path.join(build, 'web/book', file), 'player/' + file)
   for (const file of fs.readdirSync(path.join(build, 'web/compiler'))) copy(path.join(build, 'web/compiler', file), 'player/compiler/' + file)
   copy(path.join(docs, '.vitepress/theme/icon.svg'), 'icon.svg')
-  for (const file of ['worker.js', 'compiler.js']) copy(path.join(docs, '.vitepress/theme/player', file), 'player/' + file)
+  for (const file of ['worker.js', 'compiler.js', 'llvm.mjs']) copy(path.join(docs, '.vitepress/theme/player', file), 'player/' + file)
 }
 
 // Pages find the libraries where this file does.
@@ -77,16 +77,14 @@ export default defineConfig({
     root: {
       label: 'English', lang: 'en', description: 'How bump and normal mapping work, stage by stage, in a rasterizer that runs in the page'
     },
-    ...fs.existsSync(path.join(docs, 'zh')) && {
-      zh: {
-        label: '简体中文', lang: 'zh-Hans', link: '/zh/', description: '凹凸贴图与法线贴图的原理：一步一步，在网页里运行的光栅器',
-        themeConfig: {
-          sidebar: sidebar('zh'),
-          outline: { level: [2, 3], label: '本页内容' },
-          docFooter: { prev: '上一页', next: '下一页' },
-          darkModeSwitchLabel: '深色', lightModeSwitchTitle: '切换到浅色', darkModeSwitchTitle: '切换到深色',
-          sidebarMenuLabel: '目录', returnToTopLabel: '回到顶部', langMenuLabel: '语言', skipToContentLabel: '跳到正文'
-        }
+    zh: {
+      label: '简体中文', lang: 'zh-Hans', link: '/zh/', description: '凹凸贴图与法线贴图的原理：一步一步，在网页里运行的光栅器',
+      themeConfig: {
+        sidebar: sidebar('zh'),
+        outline: { level: [2, 3], label: '本页内容' },
+        docFooter: { prev: '上一页', next: '下一页' },
+        darkModeSwitchLabel: '深色', lightModeSwitchTitle: '切换到浅色', darkModeSwitchTitle: '切换到深色',
+        sidebarMenuLabel: '目录', returnToTopLabel: '回到顶部', langMenuLabel: '语言', skipToContentLabel: '跳到正文'
       }
     }
   },

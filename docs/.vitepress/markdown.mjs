@@ -13,8 +13,9 @@ const stageOfGolden = (file) => {
 
 export const base = process.env.RELIEF_BOOK_BASE ?? '/'
 
-// Files that pages link to and that are not pages: the site has copies of them under source/.
+// Files that pages link to and that are not pages: the site has copies of them.
 export const linkedFiles = new Set()
+export const copyOf = (file) => 'source/' + file + (/\.(png|svg|glb|html|json)$/.test(file) ? '' : '.txt')
 
 // A page's address on the site, from its file in the repository.
 export const pageOf = (file) =>
@@ -35,11 +36,11 @@ function resolved(env, href) {
   }
   if (!fs.existsSync(path.join(root, file))) return href
   linkedFiles.add(file)
-  return '/source/' + file + (/\.(png|svg|glb|html|json)$/.test(file) ? '' : '.txt')
+  return '/' + copyOf(file)
 }
 
 // `./relief render 1.08 --set lightYaw=90 --show depth` as what a player can be told; null where it is another program's.
-export function commandOf(line) {
+function commandOf(line) {
   const words = line.trim().split(/\s+/)
   if (words[0] !== './relief' || words[1] !== 'render') return null
   const command = { stage: '', settings: [], view: '' }
@@ -92,9 +93,9 @@ export default function relief(md) {
 
   // The same for what is written as HTML.
   const html = (rule) => (tokens, index, options, env, self) => rule(tokens, index, options, env, self)
-    .replace(/(href)="([^"]+)"/g, (all, name, href) => {
+    .replace(/href="([^"]+)"/g, (all, href) => {
       const target = /^([a-z]+:|#|\/)/.test(href) ? href : resolved(env, href)
-      return target === null ? '' : `${name}="${target.startsWith('/') ? base + target.slice(1).replace(/\.md(?=#|$)/, '.html') : target}"`
+      return target === null ? '' : `href="${target.startsWith('/') ? base + target.slice(1).replace(/\.md(?=#|$)/, '.html') : target}"`
     })
     .replace(/src="(?![a-z]+:|\/|\.)/g, 'src="./')
   md.renderer.rules.html_block = html(md.renderer.rules.html_block)

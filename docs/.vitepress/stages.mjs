@@ -6,15 +6,14 @@ import { fileURLToPath } from 'node:url'
 export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..')
 const read = (file) => fs.readFileSync(path.join(root, file), 'utf8')
 
-// [{id: '1.08', stem: '08_along_v', folder: 'bumpiness', title: 'Along v', hash, before: '1.07' or null}], in order.
+// [{id: '1.08', stem: '08_along_v', folder: 'bumpiness', hash, before: '1.07' or null}], in order.
 // `before`: the stage before it in the same chapter.
 export const stages = (() => {
   const folders = [...read('samples/CMakeLists.txt').matchAll(/^add_tutorial\((\d) (\w+)/gm)].map((m) => m[2])
   const list = read('tests/golden/hashes.txt').trim().split('\n').map((line) => {
     const [hash, id, stem] = line.trim().split(/\s+/)
     const folder = folders[Number(id[0])]
-    const [, title] = read(`samples/${folder}/${stem}.cpp`).match(/\.title = "([^"]+)"/)
-    return { id, stem, folder, title, hash, before: null }
+    return { id, stem, folder, hash, before: null }
   })
   list.forEach((stage, i) => {
     if (i > 0 && list[i - 1].folder === stage.folder) stage.before = list[i - 1].id

@@ -11,10 +11,7 @@ export class Connection {
       if (data.error === undefined) resolve(data)
       else reject(new Error(data.error))
     })
-    this.worker.addEventListener('error', (event) => {
-      for (const { reject } of this.waiting.values()) reject(new Error(event.message || 'the worker does not start'))
-      this.waiting.clear()
-    })
+    this.worker.addEventListener('error', (event) => this.refuse(event.message || 'the worker does not start'))
   }
 
   ask(call, words = {}) {
@@ -25,5 +22,14 @@ export class Connection {
     })
   }
 
-  end() { this.worker.terminate() }
+  refuse(why) {
+    for (const { reject } of this.waiting.values()) reject(new Error(why))
+    this.waiting.clear()
+  }
+
+  // Whatever it does; those who wait get an error.
+  end(why) {
+    this.worker.terminate()
+    this.refuse(why)
+  }
 }

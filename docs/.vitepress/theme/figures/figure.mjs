@@ -1,4 +1,4 @@
-// What the figures say, in both languages.
+// What the figures share: their words in both languages, numbers, and places.
 const all = {
   en: {
     tip: (name) => `tip of ${name}`, length: 'length', angle: 'angle', dot: 'dot product', cosine: 'cosine of the angle', shadow: 'shadow of b on a',
@@ -17,3 +17,6 @@ const all = {
 }
 export const figureWords = (lang) => lang.startsWith('zh') ? all.zh : all.en
 export const number = (value) => (Math.abs(value) < 0.005 ? 0 : value).toFixed(2)
+
+// Where a figure's coordinates are on its drawing: y goes up.
+export const at = (place, x, y) => ({ x: place.x + x * place.scale, y: place.y - y * place.scale })

@@ -1,7 +1,9 @@
-// What a stage's file includes, precompiled for the compiler that runs in the book's pages (CMakeLists.txt).
+// What stages' files include, for those who precompile it: for stages that are compiled while a program runs
+// (live/headers.h), and for those that are compiled in a page of the book (docs/.vitepress/compiler.mjs).
 #pragma once
 
-// What calls programs runs once for each draw: clang is not to optimise it.
+// What calls programs runs once for each draw: clang is not to optimise it, which would take as long as some programs.
+// Whatever these two headers include stands above them.
 #include "relief/pipeline/draw.h"
 #pragma clang optimize off
 #include "relief/pipeline/frame.h"
@@ -25,5 +27,4 @@
 
 #include "common/baked_sphere.h"
 #include "common/stage.h"
-#include "common/stage_names.h"
 #include "common/triplanar_methods.h"
