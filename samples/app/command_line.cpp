@@ -448,7 +448,9 @@ int runProgram(int argc, char** argv, const Program& program)
         command->add_option("--html", traceOptions.html, "As a page, in one file that works offline")
             ->type_name("FILE.html")
             ->excludes(asJson);
-    command->add_option("--against", traceOptions.against, "Another stage: the first value that differs there")
+    command
+        ->add_option("--against", traceOptions.against,
+                     "Another stage: the first value that differs there; committed: this stage as git has it")
         ->type_name("STAGE")
         ->excludes(asJson)
         ->excludes(asPage);

@@ -2,9 +2,14 @@
 
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <string>
+#include <utility>
 
+#include <unistd.h>
+
+#include "common/shell.h"
 #include "picture_command.h"
 #include "prepare.h"
 #include "relief/file.h"
@@ -15,6 +20,7 @@ namespace relief::samples {
 
 namespace {
 
+namespace fs = std::filesystem;
 using namespace samples::trace;
 using relief::trace::tracePixel;
 
@@ -111,6 +117,42 @@ Expected<void> tellFirstNan(const RenderOptions& options)
     return {};
 }
 
+// A stage's source as its last commit has it, in a file of the same name.
+struct CommittedSource
+{
+    fs::path folder, file;
+
+    static Expected<CommittedSource> write(const std::string& stage)
+    {
+        const Expected<live::StageSource> source = live::findSource(stage);
+        if (!source) return tl::unexpected(source.error());
+        const fs::path path = source->path;
+        const std::optional<std::string> text = outputOf("git -C " + quoted(path.parent_path().string()) + " show " +
+                                                         quoted("HEAD:./" + path.filename().string()) + " 2>/dev/null");
+        if (!text) return fail("--against committed: git has no committed " + path.string());
+        CommittedSource committed;
+        committed.folder = fs::temp_directory_path() / ("relief-committed-" + std::to_string(::getpid()));
+        committed.file = committed.folder / path.filename();
+        std::error_code error;
+        fs::create_directories(committed.folder, error);
+        const Expected<void> written = writeFileAtomically(
+            committed.file.string(), {reinterpret_cast<const std::uint8_t*>(text->data()), text->size()});
+        if (!written) return tl::unexpected(written.error());
+        return committed;
+    }
+
+    CommittedSource() = default;
+    CommittedSource(CommittedSource&& other) noexcept
+        : folder(std::exchange(other.folder, {})), file(std::move(other.file))
+    {
+    }
+    ~CommittedSource()
+    {
+        std::error_code ignored;
+        if (!folder.empty()) fs::remove_all(folder, ignored);
+    }
+};
+
 // Tells of one pixel after the other of a stage, and checks each against the plain program's picture.
 struct PixelTelling
 {
@@ -162,6 +204,29 @@ Expected<void> answerPixels(const RenderOptions& options)
     return {};
 }
 
+// Where the same pixel's life is another one in another stage, or in the same stage as it is committed.
+Expected<void> tellDifference(const TraceOptions& options, const Node& life)
+{
+    std::optional<CommittedSource> committed;
+    TraceOptions other = options;
+    other.render.stage = options.against;
+    if (options.against == "committed") {
+        Expected<CommittedSource> source = CommittedSource::write(options.render.stage);
+        if (!source) return tl::unexpected(source.error());
+        committed.emplace(std::move(*source));
+        other.render.stage = committed->file.string();
+    }
+    const Expected<PixelTelling> telling = PixelTelling::record(other.render, "--pixel " + options.pixel);
+    if (!telling) return tl::unexpected(telling.error());
+    const Expected<PixelTrace> trace = telling->trace(options.pixel);
+    if (!trace) return tl::unexpected(trace.error());
+    Node second = tell(*trace, telling->telling.subject);
+    if (committed) second.label = "committed";
+    const std::string difference = firstDifference(life, second);
+    std::printf("%s\n", difference.empty() ? "the traces are the same" : difference.c_str());
+    return {};
+}
+
 }  // namespace
 
 Expected<PreparedStage> prepareTraced(const RenderOptions& options)
@@ -177,25 +242,12 @@ Expected<void> traceStage(const TraceOptions& options)
     if (options.firstNan) return tellFirstNan(options.render);
     if (options.pixel == "-") return answerPixels(options.render);
     if (const Expected<Pixel> pixel = parsePixel(options.pixel); !pixel) return tl::unexpected(pixel.error());
-    const auto recorded = [&](const std::string& stage) {
-        RenderOptions render = options.render;
-        render.stage = stage;
-        return PixelTelling::record(render, "--pixel " + options.pixel);
-    };
-    const Expected<PixelTelling> telling = recorded(options.render.stage);
+    const Expected<PixelTelling> telling = PixelTelling::record(options.render, "--pixel " + options.pixel);
     if (!telling) return tl::unexpected(telling.error());
     const Expected<PixelTrace> trace = telling->trace(options.pixel);
     if (!trace) return tl::unexpected(trace.error());
     const Subject& subject = telling->telling.subject;
-    if (!options.against.empty()) {
-        const Expected<PixelTelling> other = recorded(options.against);
-        if (!other) return tl::unexpected(other.error());
-        const Expected<PixelTrace> second = other->trace(options.pixel);
-        if (!second) return tl::unexpected(second.error());
-        const std::string difference = firstDifference(tell(*trace, subject), tell(*second, other->telling.subject));
-        std::printf("%s\n", difference.empty() ? "the traces are the same" : difference.c_str());
-        return {};
-    }
+    if (!options.against.empty()) return tellDifference(options, tell(*trace, subject));
     if (!options.html.empty()) {
         const Expected<std::string> page = toHtml(*trace, subject, telling->picture.target->color8());
         if (!page) return tl::unexpected(page.error());

@@ -62,7 +62,7 @@ std::string rowOf(const Node& node)
     std::string row;
     if (node.color) row += "<i style=\"background:" + cssOf(*node.color) + "\"></i>";
     if (node.direction) row += "<i class=\"d\" style=\"background:" + cssOfDirection(*node.direction) + "\"></i>";
-    row += "<b>" + escaped(node.label) + "</b> " + escaped(node.value);
+    row += "<b>" + escaped(titleOf(node)) + "</b> " + escaped(node.place.empty() ? node.value : node.place);
     if (node.isInvalid) row += " <em>not finite</em>";
     return row;
 }

@@ -92,7 +92,8 @@ private:
             const Event& event = events[next++];
             if (event.kind == Event::Kind::leave) return;
             if (event.kind == Event::Kind::enter) {
-                Node call = leaf(event.site.function, place(event.site));
+                Node call = leaf(event.site.function, "");
+                call.place = place(event.site);
                 addEvents(events, textures, next, call);
                 call.isFolded = std::string_view(event.site.file) != subject.file;
                 call.isInvalid = std::any_of(call.children.begin(), call.children.end(),
@@ -104,7 +105,8 @@ private:
                 to.children.push_back(textureNode(textures[event.sample], event));
                 continue;
             }
-            Node node = valueNode(std::to_string(event.site.line) + "  " + event.site.name + event.field, event.value);
+            Node node = valueNode(event.site.name + event.field, event.value);
+            node.line = event.site.line;
             node.code = subject.line(event.site);
             to.children.push_back(std::move(node));
         }
@@ -114,7 +116,8 @@ private:
 
     Node textureNode(const t::SampleTrace& s, const Event& event) const
     {
-        Node node = valueNode(std::to_string(s.site.line) + "  " + t::nameOf(s.function), event.value);
+        Node node = valueNode(t::nameOf(s.function), event.value);
+        node.line = s.site.line;
         node.code = subject.line(s.site);
         if (!s.isAsked) {
             node.value = "not asked for";
@@ -385,8 +388,9 @@ void writeText(const Node& node, bool all, int depth, std::string& text, const s
 {
     const std::string indent(static_cast<std::size_t>(depth) * 2, ' ');
     if (!node.code.empty() && node.code != lastCode) text += indent + "| " + node.code + "\n";
-    text += indent + node.label + (node.value.empty() ? "" : ": " + node.value) +
-            (node.isInvalid ? "   <- not finite" : "") + "\n";
+    const std::string& value = node.place.empty() ? node.value : node.place;
+    text += indent + titleOf(node) + (value.empty() ? "" : ": " + value) + (node.isInvalid ? "   <- not finite" : "") +
+            "\n";
     if (node.quad) {
         const Quad& q = *node.quad;
         text +=
@@ -401,7 +405,67 @@ void writeText(const Node& node, bool all, int depth, std::string& text, const s
     }
 }
 
+// Pairs of what has the same label in both lists, in order, as many as there can be (the longest common subsequence);
+// and between them what only one has: null stands for the other.
+std::vector<std::pair<const Node*, const Node*>> paired(const std::vector<Node>& a, const std::vector<Node>& b)
+{
+    std::vector<std::vector<int>> count(a.size() + 1, std::vector<int>(b.size() + 1, 0));
+    for (std::size_t i = a.size(); i-- > 0;) {
+        for (std::size_t j = b.size(); j-- > 0;) {
+            count[i][j] =
+                a[i].label == b[j].label ? count[i + 1][j + 1] + 1 : std::max(count[i + 1][j], count[i][j + 1]);
+        }
+    }
+    std::vector<std::pair<const Node*, const Node*>> pairs;
+    std::size_t i = 0, j = 0;
+    while (i < a.size() || j < b.size()) {
+        if (i < a.size() && j < b.size() && a[i].label == b[j].label) {
+            pairs.emplace_back(&a[i++], &b[j++]);
+        } else if (j == b.size() || (i < a.size() && count[i + 1][j] >= count[i][j + 1])) {
+            pairs.emplace_back(&a[i++], nullptr);
+        } else {
+            pairs.emplace_back(nullptr, &b[j++]);
+        }
+    }
+    return pairs;
+}
+
+// `way`: the labels of what the nodes are in.
+std::string differenceInside(const Node& a, const Node& b, const std::string& nameA, const std::string& nameB,
+                             const std::string& way)
+{
+    const auto said = [](const Node* node, const std::string& value) {
+        if (node == nullptr) return std::string("has no such value");
+        return titleOf(*node) + (value.empty() ? "" : ": " + value) + (node->code.empty() ? "" : "  | " + node->code);
+    };
+    const auto both = [&](const Node* first, const std::string& firstValue, const Node* second,
+                          const std::string& secondValue) {
+        return way + nameA + ": " + said(first, firstValue) + "\n" + nameB + ": " + said(second, secondValue);
+    };
+    for (const auto& [first, second] : paired(a.children, b.children)) {
+        if (first == nullptr) return both(nullptr, "", second, second->value);
+        if (second == nullptr) return both(first, first->value, nullptr, "");
+        if (first->value != second->value) return both(first, first->value, second, second->value);
+        if (first->quad && second->quad) {
+            for (std::size_t p = 0; p < 4; ++p) {
+                const std::string &one = first->quad->values[p], &other = second->quad->values[p];
+                static constexpr const char* kPlaces[] = {"upper left", "upper right", "lower left", "lower right"};
+                const std::string place = std::string(" in the quad's ") + kPlaces[p] + " pixel";
+                if (one != other) return both(first, one + place, second, other + place);
+            }
+        }
+        const std::string inside = differenceInside(*first, *second, nameA, nameB, way + titleOf(*first) + "\n");
+        if (!inside.empty()) return inside;
+    }
+    return "";
+}
+
 }  // namespace
+
+std::string titleOf(const Node& node)
+{
+    return (node.line > 0 ? std::to_string(node.line) + "  " : "") + node.label;
+}
 
 Subject::Subject(const TracedStage& its, std::string itsCommand)
     : stage(its.plain->name()), command(std::move(itsCommand)), file(its.file)
@@ -452,17 +516,7 @@ std::string toText(const Node& node, bool all)
 
 std::string firstDifference(const Node& a, const Node& b)
 {
-    if (a.label != b.label || a.value != b.value)
-        return a.label + ": " + a.value + "\n" + (a.label == b.label ? std::string(a.label.size(), ' ') : b.label) +
-               ": " + b.value;
-    if (a.quad && b.quad && a.quad->values != b.quad->values) return a.label + ": in another pixel of the quad";
-    for (std::size_t i = 0; i < std::max(a.children.size(), b.children.size()); ++i) {
-        if (i >= a.children.size()) return "only the second has " + b.children[i].label + ": " + b.children[i].value;
-        if (i >= b.children.size()) return "only the first has " + a.children[i].label + ": " + a.children[i].value;
-        const std::string inside = firstDifference(a.children[i], b.children[i]);
-        if (!inside.empty()) return a.label + "\n" + inside;
-    }
-    return "";
+    return differenceInside(a, b, a.label, b.label, "");
 }
 
 }  // namespace relief::samples::trace

@@ -37,6 +37,8 @@ struct Quad
 struct Node
 {
     std::string label, value;
+    int line = 0;       // of the source, where a value has one
+    std::string place;  // "file:line" of a function that was called
     std::vector<Node> children;
     std::optional<Quad> quad;                       // where the four are not the same
     std::string code;                               // the source's line
@@ -45,6 +47,9 @@ struct Node
     bool isInvalid = false;                         // has a NaN or an infinity
     bool isFolded = false;                          // of interest only when asked for
 };
+
+// What stands before its value: "62  i.normal".
+std::string titleOf(const Node& node);
 
 Node tell(const PixelTrace& trace, const Subject& subject);
 Node tell(const ::relief::trace::VertexTrace& trace, const Subject& subject);
@@ -60,7 +65,8 @@ std::string toJson(const PixelTrace& trace, const Subject& subject, bool inOneLi
 
 std::string errorToJson(const std::string& message);  // a line
 
-// The first place where two traces differ, in words; empty: nowhere.
+// The first place where two traces differ, in words: the way to it, and what each has there. Where in its source a
+// value stands is no difference. Empty: they do not differ.
 std::string firstDifference(const Node& a, const Node& b);
 
 }  // namespace relief::samples::trace

@@ -282,6 +282,29 @@ TEST_CASE("trace: JSON, a page, and a shader of one's own")
     CHECK(runCommand(folder, what + " --against 1.09").out.find("My shader") != std::string::npos);
 }
 
+TEST_CASE("trace: the first value that differs in another stage, and since the last commit")
+{
+    const TemporaryFolder folder;
+    CHECK(runCommand(folder, "trace 4.04 --pixel 215,125 --size 480x270 --against 4.05").out.find("\nWorldNormal\n") !=
+          std::string::npos);
+    REQUIRE(runCommand(folder, "new my_shader.cpp").code == 0);
+    const std::string git = "git -C '" + folder.path.string() + "' -c user.name=Test -c user.email=test@localhost ";
+    const std::string what = "trace my_shader.cpp --pixel 31,17 --size 64x36 --against committed";
+    CHECK(runCommand(folder, what).code == 2);
+    REQUIRE(std::system((git + "init -q && " + git + "add . && " + git + "commit -q -m one").c_str()) == 0);
+    CHECK(runCommand(folder, what).out == "the traces are the same\n");
+
+    std::string text = contents(folder / "my_shader.cpp");
+    const std::string before = "const Float lambert = ";
+    REQUIRE(text.find(before) != std::string::npos);
+    const auto lineNumber = 1 + std::count(text.begin(), text.begin() + static_cast<long>(text.find(before)), '\n');
+    text.insert(text.find(before) + before.size(), "2.0f * ");
+    std::ofstream(folder / "my_shader.cpp") << "// a line that changes no value\n" << text;
+    const Outcome changed = runCommand(folder, what);
+    CHECK(changed.out.find(" " + std::to_string(lineNumber + 1) + "  lambert: ") != std::string::npos);
+    CHECK(changed.out.find("committed: " + std::to_string(lineNumber) + "  lambert: ") != std::string::npos);
+}
+
 TEST_CASE("trace: pixels from standard input, each answered by a line")
 {
     const TemporaryFolder folder;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "common/shell.h"
 #include "golden_stage.h"
 #include "relief/check/golden_run.h"
 #include "relief/leave_out.h"
@@ -37,12 +38,26 @@ std::string lifeOf(const Stage& stage, int x, int y, const FrameOptions& options
     return words;
 }
 
+// The first value in which a pixel's life is not what it is by the committed source. Empty where the program that tells
+// it, or git, is not there.
+std::string firstValue(const Stage& stage, int x, int y)
+{
+    const std::string size = std::to_string(kGoldenWidth) + "x" + std::to_string(kGoldenHeight);
+    const std::optional<std::string> said =
+        outputOf(quoted(RELIEF_VIEW_PROGRAM) + " trace " + stage.id + " --size " + size + " --pixel " +
+                 std::to_string(x) + "," + std::to_string(y) + " --against committed 2>/dev/null");
+    if (!said) return "";
+    if (said->starts_with("the traces are the same")) return "\nits lines tell the same as the committed source's";
+    return "\nfirst value that is not as in the committed source:\n" +
+           said->substr(0, said->find_last_not_of('\n') + 1);
+}
+
 Expected<void> checkPicture(const Stage& stage, bool update)
 {
     const Expected<Framebuffer> target = renderForGolden(stage, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
     GoldenRun run({.goldens = RELIEF_GOLDEN_FOLDER, .failures = "golden_failures", .update = update});
-    const auto tell = [&](int x, int y) { return lifeOf(stage, x, y); };
+    const auto tell = [&](int x, int y) { return lifeOf(stage, x, y) + firstValue(stage, x, y); };
     return run.check(stage.folder + "/" + stage.stem, *target, {}, tell).map_error([](const Error& error) {
         return Error{error.message + " (of all stages: update_goldens)"};
     });
@@ -90,9 +105,10 @@ Expected<void> checkHash(const Stage& stage)
             if (!right) right = std::move(*target);
             continue;
         }
-        const std::string where = right ? firstDifference(stage, *target, options, *right)
-                                        : "\nno frame of this build has it; `check_stage golden " + stage.id +
-                                              "` names the first pixel of the picture that differs";
+        const std::string where = right
+                                      ? firstDifference(stage, *target, options, *right)
+                                      : "\nno frame of this build has it; `check_stage golden " + stage.id +
+                                            "` names the first pixel of the picture that differs, and the first value";
         return fail(stage.id + ": hash " + hash + " with " + std::to_string(options.threads) + " threads, tiles of " +
                     std::to_string(options.tileSize) + " px and " + std::to_string(kLanes) + " lanes; should be " +
                     *expected + where);
