@@ -101,6 +101,7 @@ Json jsonOf(const t::SampleTrace& s)
         all["level"] = static_cast<float>(s.fixedLevel) / 256.0f;
         all["anisotropy"] = numberOf(s.anisotropy);
     }
+    if (s.face >= 0) all["face"] = kCubeFaceNames[static_cast<std::size_t>(s.face)];
     all["taps"] = taps;
     all["result"] = listOfNumbers(s.result);
     return all;

@@ -123,14 +123,19 @@ private:
             node.value = "not asked for";
             return node;
         }
-        const std::size_t dimensions = s.isCube ? 3 : 2;
+        const bool isCube = s.face >= 0;
+        const std::size_t dimensions = isCube ? 3 : 2;
         node.children.push_back(leaf(
-            "texture", (s.isCube ? "cube map, " : "") + std::to_string(s.width) + "x" + std::to_string(s.height) + " " +
+            "texture", (isCube ? "cube map, " : "") + std::to_string(s.width) + "x" + std::to_string(s.height) + " " +
                            wordsOf(s.format) + ", " + std::to_string(s.levelCount) + " levels; " + wordsOf(s.filter) +
-                           (s.isCube ? "" : ", " + wordsOf(s.addressU) + ", " + wordsOf(s.addressV))));
-        node.children.push_back(leaf(s.isCube ? "direction" : "uv", listOf(std::span(s.coordinate).first(dimensions))));
+                           (isCube ? "" : ", " + wordsOf(s.addressU) + ", " + wordsOf(s.addressV))));
+        node.children.push_back(leaf(isCube ? "direction" : "uv", listOf(std::span(s.coordinate).first(dimensions))));
+        if (isCube && !s.taps.empty()) {
+            node.children.push_back(leaf("face", std::string(kCubeFaceNames[static_cast<std::size_t>(s.face)]) +
+                                                     ", at " + number(s.taps[0].u) + " " + number(s.taps[0].v)));
+        }
         if (s.choosesLevel) {
-            if (s.function != t::TextureFunction::tex2Dlod) {
+            if (s.function != t::TextureFunction::tex2Dlod && s.function != t::TextureFunction::texCUBElod) {
                 node.children.push_back(leaf("change", "to the right " + listOf(std::span(s.dx).first(dimensions)) +
                                                            "; down " + listOf(std::span(s.dy).first(dimensions))));
             }
@@ -171,6 +176,9 @@ private:
                 for (std::size_t c = 0; c < 4 && !texel.isBorder && !isFloat; ++c)
                     words += std::to_string(texel.codes[c]) + " ";
                 words += (texel.isBorder ? "the border: " : isFloat ? "" : "= ") + listOf(texel.value);
+                const bool isNeighbours =
+                    s.face >= 0 && (std::min(texel.x, texel.y) < 0 || std::max(texel.x, texel.y) >= level.width);
+                if (isNeighbours) words += ", beyond the face's edge";
                 node.children.push_back(leaf("texel " + position(texel.x, texel.y), words));
                 node.children.back().color = {texel.value[0], texel.value[1], texel.value[2]};
             }

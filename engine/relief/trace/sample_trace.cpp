@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "relief/bits.h"
-#include "relief/texture/level_of_detail.h"
-#include "relief/texture/sampler_steps.h"
+#include "relief/hlsl/derivatives.h"
+#include "relief/texture/cube_place.h"
 
 namespace relief::inline RELIEF_WIDTH::trace {
 
@@ -26,38 +26,44 @@ std::array<float, 3> laneOf(const Float (&v)[3], int lane)
     return {v[0][lane], v[1][lane], v[2][lane]};
 }
 
+// What a level has there.
+void readTexel(TexelFormat format, const MipLevel& level, int x, int y, TexelTrace& texel)
+{
+    const auto set = [&](std::size_t c, std::uint32_t code, float value) {
+        texel.codes[c] = code;
+        texel.value[c] = value;
+    };
+    for (std::size_t c = 0; c < 4; ++c) {
+        if (format == TexelFormat::rgba8) {
+            const std::uint8_t code = level.texel<std::uint8_t>(x, y)[c];
+            set(c, code, static_cast<float>(code) / 255.0f);
+        } else if (format == TexelFormat::rgba16) {
+            const std::uint16_t code = level.texel<std::uint16_t>(x, y)[c];
+            set(c, code, static_cast<float>(code) / 65535.0f);
+        } else {
+            const bool isThere = format == TexelFormat::rgba32Float || c == 0;
+            const float value = isThere ? level.texel<float>(x, y)[c] : c == 3 ? 1.0f : 0.0f;
+            set(c, bitCast<std::uint32_t>(value), value);
+        }
+    }
+}
+
 TexelTrace texelAt(const sampler2D& s, const Texture& texture, const MipLevel& level, int x, int y)
 {
     TexelTrace texel{};
+    texel.x = x;
+    texel.y = y;
     const bool outX = s.u == AddressMode::border && (x < 0 || x >= level.width());
     const bool outY = s.v == AddressMode::border && (y < 0 || y >= level.height());
     if (outX || outY) {
         texel.isBorder = true;
-        texel.x = x;
-        texel.y = y;
         for (std::size_t c = 0; c < 4; ++c) texel.value[c] = s.borderColor[static_cast<int>(c)];
         return texel;
     }
     // The frame around a level repeats the other side.
     texel.x = (x + level.width()) % level.width();
     texel.y = (y + level.height()) % level.height();
-    const auto set = [&](std::size_t c, std::uint32_t code, float value) {
-        texel.codes[c] = code;
-        texel.value[c] = value;
-    };
-    for (std::size_t c = 0; c < 4; ++c) {
-        if (texture.format() == TexelFormat::rgba8) {
-            const std::uint8_t code = level.texel<std::uint8_t>(x, y)[c];
-            set(c, code, static_cast<float>(code) / 255.0f);
-        } else if (texture.format() == TexelFormat::rgba16) {
-            const std::uint16_t code = level.texel<std::uint16_t>(x, y)[c];
-            set(c, code, static_cast<float>(code) / 65535.0f);
-        } else {
-            const bool isThere = texture.format() == TexelFormat::rgba32Float || c == 0;
-            const float value = isThere ? level.texel<float>(x, y)[c] : c == 3 ? 1.0f : 0.0f;
-            set(c, bitCast<std::uint32_t>(value), value);
-        }
-    }
+    readTexel(texture.format(), level, x, y, texel);
     return texel;
 }
 
@@ -86,19 +92,50 @@ LevelTrace levelAt(const sampler2D& s, const Texture& texture, int number, float
     return trace;
 }
 
-// On the level that sampleMipLevels (filter.h) takes.
-TapTrace tapAt(const sampler2D& s, const Texture& texture, float u, float v, int lod)
+LevelTrace levelAt(const CubePlace& place, int number, int lane)
+{
+    const CubeMap& texture = place.texture;
+    const MipLevel& level = texture.level(number);
+    const int side = level.width(), face = place.face[lane];
+    LevelTrace trace{};
+    trace.level = number;
+    trace.width = trace.height = side;
+    trace.isNearest = place.sampler.filter == Filter::nearest;
+    Pairs at = pairsOn(place, level);
+    if (trace.isNearest) {
+        at = {nearestPosition(AddressMode::clamp, place.u, level.sideU()),
+              nearestPosition(AddressMode::clamp, place.v, level.sideU()), Int(0), Int(0)};
+    }
+    for (int i = 0; i < (trace.isNearest ? 1 : 4); ++i) {
+        TexelTrace& texel = trace.texels[static_cast<std::size_t>(i)];
+        texel.x = at.x[lane] - 1 + i % 2;
+        texel.y = at.y[lane] - 1 + i / 2;
+        readTexel(texture.format(), level, texel.x, CubeMap::rowOf(face, texel.y, side), texel);
+    }
+    trace.weightX = at.fx[lane];
+    trace.weightY = at.fy[lane];
+    return trace;
+}
+
+// On the levels that sampleMipLevels (filter.h) takes; levelOf(number) tells of one.
+template <class LevelAt>
+TapTrace tapOn(Filter filter, float u, float v, int lod, const LevelAt& levelOf)
 {
     TapTrace tap{u, v, {}, 0};
-    if (s.filter != Filter::trilinear) {
-        tap.levels.push_back(levelAt(s, texture, (lod + kLodOne / 2) >> kLodBits, u, v));
+    if (filter != Filter::trilinear) {
+        tap.levels.push_back(levelOf((lod + kLodOne / 2) >> kLodBits));
         return tap;
     }
     const int level = lod >> kLodBits;
     tap.between = lod & (kLodOne - 1);
-    tap.levels.push_back(levelAt(s, texture, level, u, v));
-    if (tap.between != 0) tap.levels.push_back(levelAt(s, texture, level + 1, u, v));
+    tap.levels.push_back(levelOf(level));
+    if (tap.between != 0) tap.levels.push_back(levelOf(level + 1));
     return tap;
+}
+
+TapTrace tapAt(const sampler2D& s, const Texture& texture, float u, float v, int lod)
+{
+    return tapOn(s.filter, u, v, lod, [&](int number) { return levelAt(s, texture, number, u, v); });
 }
 
 float2 texelsOf(const Texture& texture, const Float (&change)[3])
@@ -149,6 +186,62 @@ void trace2D(const sampler2D& s, const TextureCall& call, int lane, SampleTrace&
     trace.levelOfDetail = (lod + limitBias(s, bias))[lane];
     trace.fixedLevel = fixedLevel(s, texture.levelCount(), lod + limitBias(s, bias))[lane];
     trace.taps.push_back(tapAt(s, texture, u, v, trace.fixedLevel));
+}
+
+float3 vectorOf(const Float (&v)[3])
+{
+    return {v[0], v[1], v[2]};
+}
+
+void traceCube(const samplerCUBE& s, const TextureCall& call, int lane, SampleTrace& trace)
+{
+    const CubeMap& texture = textureOf(s);
+    const float3 direction = finiteDirection(vectorOf(call.coordinate));
+    const Meeting at(direction);
+    const CubePlace place = placeOn(s, at);
+    trace.face = place.face[lane];
+    trace.format = texture.format();
+    trace.width = trace.height = texture.side();
+    trace.levelCount = texture.levelCount();
+    trace.filter = s.filter;
+    if (usesMipLevels(s)) {
+        const bool isGiven = call.function == TextureFunction::texCUBElod;
+        const bool hasChange = call.function == TextureFunction::texCUBEgrad;
+        const float3 dx = hasChange ? vectorOf(call.dx) : ddx(direction);
+        const float3 dy = hasChange ? vectorOf(call.dy) : ddy(direction);
+        const Float bias = call.function == TextureFunction::texCUBEbias ? call.extra : Float(0.0f);
+        const Float lod = isGiven ? call.extra + limitBias(s, 0.0f) : levelByChange(s, at, dx, dy, bias);
+        trace.choosesLevel = true;
+        trace.levelOfDetail = lod[lane];
+        trace.fixedLevel = fixedLevel(s, texture.levelCount(), lod)[lane];
+    }
+    trace.taps.push_back(tapOn(s.filter, place.u[lane], place.v[lane], trace.fixedLevel,
+                               [&](int number) { return levelAt(place, number, lane); }));
+}
+
+// What SampleCmp compares: one texture, or one for each face of a cube.
+void traceComparison(const SamplerComparisonState& s, const TextureCall& call, int lane, SampleTrace& trace)
+{
+    sampler2D plain = {.texture = s.texture, .filter = Filter::bilinear, .u = s.u, .v = s.v, .mipmaps = false};
+    plain.borderColor = glm::vec4(s.border);
+    trace.comparison = s.comparison;
+    trace2D(plain, call, lane, trace);
+}
+
+void traceComparison(const SamplerCubeComparisonState& s, const TextureCall& call, int lane, SampleTrace& trace)
+{
+    const CubeFaceOf at(vectorOf(call.coordinate));
+    const float3 along = at.components(vectorOf(call.coordinate));
+    TextureCall onFace = call;
+    onFace.coordinate[0] = along.x / along.z * 0.5f + 0.5f;
+    onFace.coordinate[1] = along.y / along.z * 0.5f + 0.5f;
+    trace.face = at.face()[lane];
+    const std::array<float, 3> direction = trace.coordinate;
+    trace.coordinate = laneOf(onFace.coordinate, lane);
+    traceComparison(
+        {s.faces[static_cast<std::size_t>(trace.face)], s.comparison, AddressMode::clamp, AddressMode::clamp}, onFace,
+        lane, trace);
+    trace.coordinate = direction;
 }
 
 // --- the arithmetic of fetch.h, for one channel of one pixel ---
@@ -234,37 +327,19 @@ SampleTrace traceSample(const Site& site, const TextureCall& call, int lane)
     trace.dy = laneOf(call.dy, lane);
     trace.extra = call.extra[lane];
     for (int c = 0; c < 4; ++c) trace.result[static_cast<std::size_t>(c)] = call.result[c][lane];
-    if (call.texture != nullptr) {
+    if (call.texture != nullptr)
         trace2D(*call.texture, call, lane, trace);
-    } else if (call.comparison != nullptr) {
-        const SamplerComparisonState& s = *call.comparison;
-        sampler2D plain = {.texture = s.texture, .filter = Filter::bilinear, .u = s.u, .v = s.v, .mipmaps = false};
-        plain.borderColor = glm::vec4(s.border);
-        trace.comparison = s.comparison;
-        trace2D(plain, call, lane, trace);
-    } else if (call.cubeComparison != nullptr) {
-        const Texture* const face = call.cubeComparison->faces[0];
-        const Texture& texture = face != nullptr ? *face : Texture::white();
-        trace.isCube = true;
-        trace.comparison = call.cubeComparison->comparison;
-        trace.format = texture.format();
-        trace.width = trace.height = texture.width();
-        trace.levelCount = 1;
-        trace.filter = Filter::bilinear;
-    } else {
-        const CubeMap& texture = call.cube->texture != nullptr ? *call.cube->texture : CubeMap::white();
-        trace.isCube = true;
-        trace.format = texture.format();
-        trace.width = trace.height = texture.side();
-        trace.levelCount = texture.levelCount();
-        trace.filter = call.cube->filter;
-    }
+    else if (call.comparison != nullptr)
+        traceComparison(*call.comparison, call, lane, trace);
+    else if (call.cubeComparison != nullptr)
+        traceComparison(*call.cubeComparison, call, lane, trace);
+    else
+        traceCube(*call.cube, call, lane, trace);
     return trace;
 }
 
 std::array<float, 4> recombined(const SampleTrace& sample)
 {
-    if (sample.isCube) return sample.result;
     std::array<float, 4> result{};
     if (!sample.isAsked) return result;
     if (sample.function == TextureFunction::SampleCmp) {

@@ -10,7 +10,8 @@
 
 namespace relief::inline RELIEF_WIDTH::trace {
 
-// One texel: where it lies (row 0 is the lowest), and what is stored there.
+// One texel: where it lies (row 0 is the lowest), and what is stored there. On a cube map's face -1 and the face's side
+// are in the frame, which holds the texels of the faces around it (cube_map.h).
 struct TexelTrace
 {
     int x, y;
@@ -41,18 +42,18 @@ struct SampleTrace
     Site site;
     TextureFunction function;
     bool isAsked = true;      // tex2DWhere gives 0 where it is not
-    bool isCube = false;      // then there are no taps here
+    int face = -1;            // of a cube map (kCubeFaceNames); other textures have none
     bool isConstant = false;  // a texture of one texel: no coordinate is looked at
     TexelFormat format = TexelFormat::rgba8;
     int width = 0, height = 0, levelCount = 0;
     Filter filter = Filter::nearest;
     AddressMode addressU = AddressMode::wrap, addressV = AddressMode::wrap;
-    std::array<float, 3> coordinate{}, dx{}, dy{};
-    float extra = 0.0f;          // level, bias, or what is compared
-    bool choosesLevel = false;   // the two below mean something
-    float levelOfDetail = 0.0f;  // before limits
-    int fixedLevel = 0;          // within limits, in 1/256
-    float anisotropy = 1.0f;     // of the footprint
+    std::array<float, 3> coordinate{}, dx{}, dy{};  // of a cube map the direction
+    float extra = 0.0f;                             // level, bias, or what is compared
+    bool choosesLevel = false;                      // the two below mean something
+    float levelOfDetail = 0.0f;                     // before limits
+    int fixedLevel = 0;                             // within limits, in 1/256
+    float anisotropy = 1.0f;                        // of the footprint
     Compare comparison = Compare::always;
     std::vector<TapTrace> taps;
     std::array<float, 4> result{};
@@ -61,7 +62,7 @@ struct SampleTrace
 // What a call was for one lane.
 SampleTrace traceSample(const Site& site, const TextureCall& call, int lane);
 
-// The taps put together again, by the sampler's arithmetic, for one texel at a time. Of cube maps the result itself.
+// The taps put together again, by the sampler's arithmetic, for one texel at a time.
 std::array<float, 4> recombined(const SampleTrace& sample);
 
 }  // namespace relief::inline RELIEF_WIDTH::trace

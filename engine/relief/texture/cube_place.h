@@ -1,0 +1,113 @@
+// Where a cube map's sample lies: the face that a direction meets, the place on it, the level of detail, and the texels
+// of a level around it. For the sampler (cube_sampler.cpp), and for who tells of it (trace/sample_trace.cpp).
+#pragma once
+
+#include <limits>
+
+#include "relief/texture/cube_sampler.h"
+#include "relief/texture/level_of_detail.h"
+#include "relief/texture/sampler_steps.h"
+
+namespace relief::inline RELIEF_WIDTH {
+
+inline const CubeMap& textureOf(const samplerCUBE& s)
+{
+    return s.texture != nullptr ? *s.texture : CubeMap::white();
+}
+
+// A direction with a face: finite, and not 0.
+inline float3 finiteDirection(const float3& direction)
+{
+    constexpr float largest = std::numeric_limits<float>::max();
+    const auto number = [](Float x) { return clamp(select(isnan(x), Float(0.0f), x), -largest, largest); };
+    const float3 d = {number(direction.x), number(direction.y), number(direction.z)};
+    const Mask isZero = (d.x == 0.0f) & (d.y == 0.0f) & (d.z == 0.0f);
+    return {d.x, d.y, select(isZero, Float(1.0f), d.z)};
+}
+
+// Where a direction meets a face. s and t are -1..1, the quotients of components.
+struct Meeting
+{
+    explicit Meeting(const float3& direction) : face(direction)
+    {
+        const float3 along = face.components(direction);
+        middle = along.z;
+        s = along.x / middle;
+        t = along.y / middle;
+    }
+
+    // How far s and t go where the direction changes by so much: (x / z)' = x' / z - (x / z) z' / z, which has no
+    // squares that could overflow.
+    float2 change(const float3& difference) const
+    {
+        const float3 along = face.components(difference);
+        const Float z = along.z / middle;
+        return {along.x / middle - s * z, along.y / middle - t * z};
+    }
+
+    CubeFaceOf face;
+    Float middle, s, t;
+};
+
+inline bool usesMipLevels(const samplerCUBE& s)
+{
+    return s.mipmaps && textureOf(s).levelCount() > 1;
+}
+
+// By the longer of the direction's two changes, in texels of level 0.
+[[gnu::always_inline]] inline Float levelByChange(const samplerCUBE& s, const Meeting& at, const float3& dx,
+                                                  const float3& dy, Float bias)
+{
+    const float perUnit = 0.5f * static_cast<float>(textureOf(s).side());
+    const Float square = longestSquare(at.change(dx) * perUnit, at.change(dy) * perUnit);
+    return limitedIsotropicLevel(square) + limitBias(s, bias);
+}
+
+// A place on a cube map, for filter.h.
+struct CubePlace
+{
+    const samplerCUBE& sampler;
+    const CubeMap& texture;
+    Int face;
+    Float u, v;  // 0..1 on that face, from its lower left corner
+};
+
+// The frame goes on where the face ends, as a repeated texture does.
+[[gnu::always_inline]] inline Pairs pairsOn(const CubePlace& place, const MipLevel& level)
+{
+    const TextureSide& side = level.sideU();
+    const AddressMode mode = place.sampler.seamless ? AddressMode::wrap : AddressMode::clamp;
+    const Int x = pairPosition(mode, place.u, side), y = pairPosition(mode, place.v, side);
+    return {x >> kSubtexelBits, y >> kSubtexelBits, x & kSubtexelMask, y & kSubtexelMask};
+}
+
+inline Int texelIndexOn(const CubePlace& place, const MipLevel& level, Int x, Int y)
+{
+    return texelIndex(level, x, place.face * (level.width() + 2) + y);
+}
+
+template <class Fetch>
+[[gnu::always_inline]] inline float4 nearestOn(const CubePlace& place, const MipLevel& level)
+{
+    const Int x = nearestPosition(AddressMode::clamp, place.u, level.sideU());
+    const Int y = nearestPosition(AddressMode::clamp, place.v, level.sideU());
+    return Fetch::nearest(level, texelIndexOn(place, level, x, y));
+}
+
+template <class Fetch>
+[[gnu::always_inline]] inline float4 bilinearOn(const CubePlace& place, const MipLevel& level, const Pairs& at)
+{
+    return Fetch::bilinear(level, texelIndexOn(place, level, at.x, at.y), at.fx, at.fy);
+}
+
+inline bool leavesOutAlpha(const CubePlace&, const MipLevel& level)
+{
+    return leavesOut::alpha && level.isOpaque();
+}
+
+inline CubePlace placeOn(const samplerCUBE& s, const Meeting& at)
+{
+    return {s, textureOf(s), at.face.face(), at.s * 0.5f + 0.5f, at.t * 0.5f + 0.5f};
+}
+
+}  // namespace relief::inline RELIEF_WIDTH
