@@ -169,10 +169,10 @@ TEST_CASE("output merger: depth comparisons")
     CHECK(wrong == 0);
 }
 
-TEST_CASE("output merger: coarse depth bounds never hide a pixel that would pass (S-905)")
+TEST_CASE("output merger: coarse depth bounds never hide a pixel that would pass, nor let one through (S-905)")
 {
     Random random(70);
-    int wrong = 0, hidden = 0;
+    int wrong = 0, hidden = 0, inFront = 0;
     forEachCompare([&]<Compare compare>() {
         for (int block = 0; block < trials(2000); ++block) {
             const float cleared = static_cast<float>(random.between(0, 2)) / 2;
@@ -184,24 +184,31 @@ TEST_CASE("output merger: coarse depth bounds never hide a pixel that would pass
                             b = static_cast<float>(random.between(0, 16)) / 16;
                 const float nearest = std::min(a, b), farthest = std::max(a, b);
                 const bool hide = isHidden(compare, nearest, farthest, bounds);
+                const bool pass = isInFront(compare, nearest, farthest, bounds);
                 hidden += hide;
+                inFront += pass;
                 const bool whole = random.chance(2);
                 for (float& stored : depth) {
                     if (!whole && random.chance(2)) continue;
                     const float z = random.chance(3)   ? nearest
                                     : random.chance(2) ? farthest
                                                        : random.real(nearest, farthest);
+                    wrong += pass && !passes(compare, z, stored);
                     if (!passes(compare, z, stored)) continue;
                     wrong += hide;
                     if (!hide) stored = z;
                 }
-                if (!hide) updateBounds(compare, nearest, farthest, whole, bounds);
+                if (pass && whole)
+                    bounds = {nearest, farthest};
+                else if (!hide)
+                    updateBounds(compare, nearest, farthest, whole, bounds);
                 for (const float stored : depth) wrong += stored < bounds.nearest || stored > bounds.farthest;
             }
         }
     });
-    measured("pixels hidden that would pass", wrong, 0);
+    measured("pixels hidden that would pass, or drawn that would not", wrong, 0);
     CHECK(hidden > trials(2000));  // it does hide
+    CHECK(inFront > trials(2000));
 }
 
 TEST_CASE("output merger: to 8 bits, nearest, ties up (S-952)")

@@ -126,7 +126,7 @@ inline Int fromRows(Int a)
 {
     return [a]<int... i>(std::integer_sequence<int, i...>)
     {
-        return Int(__builtin_shufflevector(a.value, a.value, laneY(i) * kBlockWidth + laneX(i)...));
+        return Int(native::shuffle<laneY(i) * kBlockWidth + laneX(i)...>(a.value, a.value));
     }
     (std::make_integer_sequence<int, kLanes>());
 }

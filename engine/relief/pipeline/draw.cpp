@@ -107,6 +107,15 @@ bool isBehind(const State& state, const TriangleWeights& triangle, const DepthBo
            isHidden(state.depthTest, triangle.nearest, triangle.farthest, bounds);
 }
 
+// Whether a triangle covers all of a block, and bounds alone show that it is in front of what is there: nothing is
+// compared then.
+template <class State>
+bool replacesDepths(const State& state, const TriangleWeights& triangle, unsigned coverage, const DepthBounds& bounds)
+{
+    return coverage == kAllLanes && state.depthWrite && !state.decides &&
+           isInFront(state.depthTest, triangle.nearest, triangle.farthest, bounds);
+}
+
 // Writes the depth of a block's live pixels, all of which lie between two depths.
 template <class State>
 void writeDepth(const State& state, const DepthBounds& between, bool isWhole, unsigned live, Float depth, Float old,
@@ -159,7 +168,7 @@ void storeEdges(const Float (&edge)[3], float (&to)[3][kLanes])
 void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsigned live, Counts& counts)
 {
     block.live = live;
-    block.quads = wholeQuads(leavesOut::hidden ? live : covered.coverage);
+    block.quads = live == kAllLanes ? kAllLanes : wholeQuads(leavesOut::hidden ? live : covered.coverage);
     block.index = index;
     block.covered = covered;
     counts.quadPixels += static_cast<unsigned>(countBits(block.quads));
@@ -190,12 +199,18 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
             if (leavesOut::hidden && live == 0) return false;
         } else if (state.usesDepth) {
             float* const stored = tile.depth(index);
-            const Float depth = weights.depth(edge[1], edge[2]), old = Float::load(stored);
-            live &= compareBy(state.depthTest, depth, old).bits();
-            if (leavesOut::hidden && live == 0) return false;
-            if (!state.decides)
-                writeDepth(state, depthsOf(weights), coverage == kAllLanes, live, depth, old, stored,
-                           tile.bounds(index));
+            const Float depth = weights.depth(edge[1], edge[2]);
+            if (replacesDepths(state, weights, coverage, tile.bounds(index))) {
+                depth.store(stored);
+                tile.bounds(index) = depthsOf(weights);
+            } else {
+                const Float old = Float::load(stored);
+                live &= compareBy(state.depthTest, depth, old).bits();
+                if (leavesOut::hidden && live == 0) return false;
+                if (!state.decides)
+                    writeDepth(state, depthsOf(weights), coverage == kAllLanes, live, depth, old, stored,
+                               tile.bounds(index));
+            }
         }
         if (state.readsEdges) storeEdges(edge, block.edge);
         if (state.readsCentroids) storeEdges(edge, block.centroid);

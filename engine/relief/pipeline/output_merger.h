@@ -70,6 +70,23 @@ inline bool isHidden(Compare compare, float nearest, float farthest, const Depth
     }
 }
 
+// Whether they show that every pixel passes.
+inline bool isInFront(Compare compare, float nearest, float farthest, const DepthBounds& stored)
+{
+    switch (compare) {
+        case Compare::less:
+            return farthest < stored.nearest;
+        case Compare::lessEqual:
+            return farthest <= stored.nearest;
+        case Compare::greater:
+            return nearest > stored.farthest;
+        case Compare::greaterEqual:
+            return nearest >= stored.farthest;
+        default:
+            return compare == Compare::always;
+    }
+}
+
 // After pixels between the two depths were tested and written. `whole`: every pixel of the block took part.
 inline void updateBounds(Compare compare, float nearest, float farthest, bool whole, DepthBounds& stored)
 {
@@ -146,6 +163,10 @@ struct StoredColor
         for (std::size_t i = 0; i < stored.words.size(); ++i) stored.words[i] = Int::load(from + i * kLanes);
         return stored;
     }
+    void store(std::int32_t* to) const
+    {
+        for (std::size_t i = 0; i < words.size(); ++i) words[i].store(to + i * kLanes);
+    }
     void store(std::int32_t* to, Mask where, const StoredColor& elsewhere) const
     {
         for (std::size_t i = 0; i < words.size(); ++i)
@@ -172,7 +193,10 @@ public:
     int set(const Channels& color, unsigned live) { return isSame(color) ? 0 : encode(color, live); }
     void store(std::int32_t* words, unsigned live) const
     {
-        encoded.store(words, Mask::fromBits(live), StoredColor<format>::load(words));
+        if (live == kAllLanes)
+            encoded.store(words);
+        else
+            encoded.store(words, Mask::fromBits(live), StoredColor<format>::load(words));
     }
 
 private:

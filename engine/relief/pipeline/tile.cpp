@@ -194,11 +194,13 @@ void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
     }
     if (!hasDepth()) return;
     if (clear.depth) {
-        std::fill_n(mBounds.get(), blockCount, DepthBounds{*clear.depth, *clear.depth});
+        const DepthBounds all = {*clear.depth, *clear.depth};
+        std::fill_n(mBounds.get(), blockCount, all);
+        mWholeBounds = all;
     } else {
         setBounds();
+        refreshWholeBounds();
     }
-    refreshWholeBounds();
 }
 
 void Tile::fill(const Plane& plane, const std::int32_t (&value)[4])
