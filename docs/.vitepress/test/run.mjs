@@ -167,6 +167,7 @@ const parts = {
     for (const { name } of stagePages.filter(({ language }) => language === '')) {
       const page = await pageOf(name)
       await ready(page, 'hash')
+      await page.evaluate(() => { for (const answer of document.querySelectorAll('.vp-doc details')) answer.open = true })
       for (const button of await page.locator('.try button').all()) {
         await button.click()
         await page.waitForFunction((b) => b.getAttribute('aria-pressed') === 'true', await button.elementHandle(), { timeout: 30000 })
