@@ -59,6 +59,25 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
         ->capture_default_str();
 }
 
+void addDoctorOptions(CLI::App& command, DoctorOptions& options)
+{
+    command.add_option("file", options.file, "A picture: PNG, JPEG, TGA, BMP, HDR or PFM")->required();
+    command
+        .add_option("--height", options.heights,
+                    "The heights that it was made of: which way its axes go, and how strong it is")
+        ->type_name("FILE");
+    command.add_option("--mesh", options.mesh, "An OBJ or glTF file that it is for: whether its tangents go with its uv")
+        ->type_name("FILE");
+    command.add_option("--fix", options.fix, "Writes the cured map")->type_name("OUT.png");
+    command
+        .add_option("--evidence", options.evidence,
+                    "Writes a picture: the map, cured, the lengths of its vectors (green: 1), the heights")
+        ->type_name("OUT.png");
+    command.add_option("--heights", options.writtenHeights, "Writes the heights that would give the map")
+        ->type_name("OUT.png");
+    command.add_flag("--json", options.json, "As JSON");
+}
+
 void addCheckCommands(CLI::App& check, CheckOptions& options)
 {
     check.require_subcommand(1);
@@ -481,6 +500,15 @@ int runProgram(int argc, char** argv, const Program& program)
         const Expected<int> checked = program.check != nullptr ? program.check(checkOptions) : elsewhere("check");
         if (checked) code = *checked;
         if (!checked) result = tl::unexpected(checked.error());
+    });
+
+    command = app.add_subcommand("doctor", "Says what a normal map or height map is, and what is wrong with it");
+    DoctorOptions doctorOptions;
+    addDoctorOptions(*command, doctorOptions);
+    command->callback([&] {
+        const Expected<int> found = program.doctor != nullptr ? program.doctor(doctorOptions) : elsewhere("doctor");
+        if (found) code = *found;
+        if (!found) result = tl::unexpected(found.error());
     });
 
     command = app.add_subcommand("report", "Measures what a chapter claims, and writes it down: text, table and plot");

@@ -26,12 +26,14 @@ struct Program
     Expected<void> (*benchLive)(const LiveBenchOptions& options) = nullptr;
     Expected<void> (*benchPeer)(const PeerOptions& options) = nullptr;
     Expected<void> (*importEnvironment)(const ImportEnvironmentOptions& options) = nullptr;
-    Expected<int> (*check)(const CheckOptions& options) = nullptr;  // 1: pictures differ
+    Expected<int> (*check)(const CheckOptions& options) = nullptr;    // 1: pictures differ
+    Expected<int> (*doctor)(const DoctorOptions& options) = nullptr;  // 1: something is wrong with it
     const char* reportName = "";
     Expected<void> (*report)(const ReportOptions& options) = nullptr;  // of that name
 };
 
-// What a main() returns: 0, or 2 after one line on stderr; of `check` 1 where pictures differ.
+// What a main() returns: 0, or 2 after one line on stderr; of `check` 1 where pictures differ, of `doctor` where a
+// map has a fault.
 int runProgram(int argc, char** argv, const Program& program);
 
 }  // namespace relief::samples

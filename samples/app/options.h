@@ -97,6 +97,14 @@ struct CheckOptions
     int threads = 0;
 };
 
+// What `doctor` examines, and what it writes.
+struct DoctorOptions
+{
+    std::string file, mesh, heights;            // the last two may be empty
+    std::string fix, evidence, writtenHeights;  // pictures; empty: not written
+    bool json = false;
+};
+
 // What `report` measures, and where the files go.
 struct ReportOptions
 {
