@@ -24,7 +24,7 @@ constexpr double kBias = 1.5 / 255.0;  // of the flat code, beyond 127 or 128
 constexpr double kMissing = 0.1;       // part of the codes
 constexpr double kBlocks = 1.45;       // kinks at every eighth line
 constexpr double kFewColors = 0.8;
-constexpr double kSeam = 3.0;
+constexpr double kSeam = 1.6;
 
 std::string format(const char* words, double a, double b = 0.0, double c = 0.0)
 {
@@ -366,10 +366,10 @@ void examineMarks(Patient& p)
     }
     const Blocks& blocks = p.blocks;
     if (blocks.fewColors > kFewColors) {
-        p.addIncurable(
-            Fault::blocks, "it was compressed in blocks of 4x4 (DXT)",
-            format("%.0f %% of the 4x4 squares with variety have four colours at most", 100.0 * blocks.fewColors),
-            "take the picture that was compressed");
+        p.addIncurable(Fault::blocks, "it was compressed in blocks of 4x4 (DXT)",
+                       format("%.0f %% of the 4x4 squares that vary both ways have four colours at most",
+                              100.0 * blocks.fewColors),
+                       "take the picture that was compressed");
     } else if (p.isCompressed()) {
         const bool eight = blocks.eight >= blocks.four;
         p.addIncurable(Fault::blocks, eight ? "blocks of 8x8 show (JPEG)" : "blocks of 4x4 show (DXT)",
@@ -380,7 +380,7 @@ void examineMarks(Patient& p)
     const Seam seam = seamOf(p.picture);
     if (std::max(seam.leftRight, seam.bottomTop) <= (p.isCompressed() ? 2.0 : 1.0) * kSeam) return;
     const std::string evidence =
-        format("steps over the left and right side are %.1f times those beside them, over bottom and top %.1f",
+        format("steps over the left and right side are %.1f times the largest others, over bottom and top %.1f",
                seam.leftRight, seam.bottomTop);
     const bool isOfOneMesh = p.d.kind == Kind::objectSpace || backgroundOf(p.picture);
     if (isOfOneMesh) {

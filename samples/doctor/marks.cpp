@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 namespace relief::samples::doctor {
@@ -28,28 +29,29 @@ double kinkAt(const std::array<float, 4>& a, const std::array<float, 4>& b, cons
     return kink;
 }
 
-// The mean kink between columns k - 1 and k (or rows), for k modulo `period`; the first's ratio to the others' mean.
+// The kinks between columns k - 1 and k (or rows) for every k that `period` divides, and for all others: the ratio of
+// their medians, line by line. A pattern of its own may have a few such lines, and blocks have all of them.
 double standsOut(const Channels& p, int period, bool rows)
 {
-    std::vector<double> sum(static_cast<std::size_t>(period), 0.0), count(sum.size(), 0.0);
+    std::vector<double> first, rest;
     const int length = rows ? p.height : p.width, other = rows ? p.width : p.height;
     const auto texel = [&](int along, int across) -> const std::array<float, 4>& {
         // Blocks begin at the picture's upper left corner.
         return rows ? p.texels[p.at(across, p.height - 1 - along)] : p.texels[p.at(along, across)];
     };
     for (int k = 2; k + 1 < length; ++k) {
-        for (int i = 0; i < other; ++i) {
-            sum[static_cast<std::size_t>(k % period)] +=
-                kinkAt(texel(k - 2, i), texel(k - 1, i), texel(k, i), texel(k + 1, i));
-            ++count[static_cast<std::size_t>(k % period)];
-        }
+        double sum = 0.0;
+        for (int i = 0; i < other; ++i) sum += kinkAt(texel(k - 2, i), texel(k - 1, i), texel(k, i), texel(k + 1, i));
+        (k % period == 0 ? first : rest).push_back(sum / other);
     }
-    double first = 0.0, rest = 0.0;
-    for (std::size_t k = 0; k < sum.size(); ++k) {
-        if (count[k] == 0.0) return 1.0;
-        (k == 0 ? first : rest) += sum[k] / count[k] / (k == 0 ? 1.0 : period - 1.0);
-    }
-    return rest > 1e-6 ? first / rest : 1.0;
+    if (first.empty() || rest.empty()) return 1.0;
+    const auto median = [](std::vector<double>& list) {
+        const auto middle = list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
+        std::nth_element(list.begin(), middle, list.end());
+        return *middle;
+    };
+    constexpr double kLeast = 1e-4;  // a fortieth of a code
+    return (median(first) + kLeast) / (median(rest) + kLeast);
 }
 
 double fewColors(const Channels& p)
@@ -58,17 +60,20 @@ double fewColors(const Channels& p)
     for (int y = 0; y + 4 <= p.height; y += 4) {
         for (int x = 0; x + 4 <= p.width; x += 4) {
             std::set<std::array<float, 3>> colors;
+            bool variesAlong = false, variesAcross = false;
             float low[3] = {1, 1, 1}, high[3] = {0, 0, 0};
             for (int i = 0; i < 16; ++i) {
                 const std::array<float, 4>& t = p.texels[p.at(x + i % 4, p.height - 1 - (y + i / 4))];
                 colors.insert({t[0], t[1], t[2]});
+                variesAlong = variesAlong || t != p.texels[p.at(x, p.height - 1 - (y + i / 4))];
+                variesAcross = variesAcross || t != p.texels[p.at(x + i % 4, p.height - 1 - y)];
                 for (std::size_t c = 0; c < 3; ++c) {
                     low[c] = std::min(low[c], t[c]);
                     high[c] = std::max(high[c], t[c]);
                 }
             }
             const float variety = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-            if (variety < 8.0f / 255.0f) continue;
+            if (variety < 8.0f / 255.0f || !variesAlong || !variesAcross) continue;  // stripes have few colours anyway
             ++varied;
             few += colors.size() <= 4;
         }
@@ -76,17 +81,32 @@ double fewColors(const Channels& p)
     return varied < 16 ? 0.0 : static_cast<double>(few) / varied;
 }
 
+// Whether all rows, or all columns, are the same: then it has few codes anyway.
+bool isStriped(const Channels& p)
+{
+    bool rows = true, columns = true;
+    for (int y = 0; y < p.height; ++y) {
+        for (int x = 0; x < p.width; ++x) {
+            const std::array<float, 4>& texel = p.texels[p.at(x, y)];
+            rows = rows && texel == p.texels[p.at(x, 0)];
+            columns = columns && texel == p.texels[p.at(0, y)];
+        }
+    }
+    return rows || columns;
+}
+
 }  // namespace
 
 Levels levelsOf(const Channels& channels, Layout layout)
 {
     Levels worst;
-    if (channels.step != 1.0f / 255.0f) return worst;
+    if (channels.step != 1.0f / 255.0f || isStriped(channels)) return worst;
     for (const std::size_t c : {layout == Layout::alphaGreen ? std::size_t{3} : std::size_t{0}, std::size_t{1}}) {
         std::array<double, 256> count{};
         for (const auto& t : channels.texels) ++count[static_cast<std::size_t>(t[c] * 255.0f + 0.5f)];
-        // What one would expect: the mean of the sixteen codes around, the code itself left out.
-        int expected = 0, missing = 0, first = -1, last = -1;
+        // Where a code should be: the sixteen around it are common. The gaps between those that are.
+        int expected = 0, missing = 0, before = -1;
+        std::vector<int> gaps;
         for (int k = 8; k < 248; ++k) {
             double around = 0.0;
             int there = 0;
@@ -97,15 +117,21 @@ Levels levelsOf(const Channels& channels, Layout layout)
             }
             if (around / 16.0 < 24.0 || there < 2) continue;
             ++expected;
-            missing += count[static_cast<std::size_t>(k)] == 0.0;
-            if (first < 0) first = k;
-            last = k;
+            if (count[static_cast<std::size_t>(k)] == 0.0) {
+                ++missing;
+                continue;
+            }
+            if (before >= 0) gaps.push_back(k - before);
+            before = k;
         }
-        if (expected < 16) continue;
+        if (expected < 16 || gaps.size() < 4) continue;
         const double part = static_cast<double>(missing) / expected;
-        if (part <= worst.missing) continue;
-        const int is = expected - missing;
-        worst = {part, is > 1 ? static_cast<double>(last - first) / (is - 1) : static_cast<double>(expected)};
+        const double spacing = std::accumulate(gaps.begin(), gaps.end(), 0.0) / static_cast<double>(gaps.size());
+        // A pattern that repeats often has few codes, too, but not evenly.
+        const auto even =
+            std::count_if(gaps.begin(), gaps.end(), [&](int gap) { return std::abs(gap - spacing) < 1.0; });
+        const bool isEven = static_cast<double>(even) > 0.75 * static_cast<double>(gaps.size());
+        if (isEven && part > worst.missing) worst = {part, spacing};
     }
     return worst;
 }
@@ -121,17 +147,23 @@ Blocks blocksOf(const Channels& channels)
 
 Seam seamOf(const Channels& p)
 {
-    const auto ratio = [&](int length, int other, const auto& texel) {
-        double over = 0.0, beside = 0.0;
-        for (int i = 0; i < other; ++i) {
-            over += stepBetween(texel(length - 1, i), texel(0, i));
-            for (int k = 1; k <= 4; ++k) {
-                beside += 0.125 * (stepBetween(texel(k - 1, i), texel(k, i)) +
-                                   stepBetween(texel(length - 1 - k, i), texel(length - k, i)));
-            }
+    const auto ratio = [](int length, int other, const auto& texel) {
+        std::vector<double> steps;  // the mean step from each line to the next; the last one goes over the side
+        for (int k = 0; k < length; ++k) {
+            double sum = 0.0;
+            for (int i = 0; i < other; ++i) sum += stepBetween(texel(k, i), texel((k + 1) % length, i));
+            steps.push_back(sum / other);
         }
-        const double least = other * 0.5 / 255.0;
-        return (over + least) / (beside + least);
+        const double over = steps.back();
+        steps.pop_back();
+        double beside = 0.0;
+        const std::size_t last = steps.size() - 1;
+        for (std::size_t k = 0; k < 4; ++k) beside += 0.125 * (steps[k] + steps[last - k]);
+        // A pattern with steps of its own may have one at the side.
+        const auto large = steps.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(last));
+        std::nth_element(steps.begin(), large, steps.end());
+        const double least = 0.5 / 255.0;
+        return (over + least) / (std::max(beside, *large) + least);
     };
     return {ratio(
                 p.width, p.height, [&](int x, int y) -> const auto& { return p.texels[p.at(x, y)]; }),

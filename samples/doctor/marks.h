@@ -6,7 +6,7 @@
 
 namespace relief::samples::doctor {
 
-// Codes of red and green that no texel has, though those around them are common.
+// Codes of red and green that no texel has, at even distances, though those around them are common.
 struct Levels
 {
     double missing = 0.0;  // their part of all codes that should be there, 0 ... 1
@@ -19,11 +19,12 @@ Levels levelsOf(const Channels& channels, Layout layout);
 struct Blocks
 {
     double eight = 1.0, four = 1.0;
-    double fewColors = 0.0;  // part of the 4x4 squares with variety that have four colours at most: DXT1 and DXT5
+    double fewColors =
+        0.0;  // part of the 4x4 squares with variety both ways that have four colours at most: DXT1 and DXT5
 };
 Blocks blocksOf(const Channels& channels);
 
-// How much larger the step over a side is than those beside it, and which.
+// How much larger the step over a side is than those beside it, and than nearly all others.
 struct Seam
 {
     double leftRight = 1.0, bottomTop = 1.0;

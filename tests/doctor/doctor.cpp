@@ -57,7 +57,7 @@ TEST_CASE("doctor: 95 of 100 single faults are named, and nine of ten in pairs")
                 others += verdict.others;
                 asked += static_cast<int>(fault.faults.size());
                 if (verdict.named < static_cast<int>(fault.faults.size()) || verdict.others > 0)
-                    MESSAGE(map.name, ", ", fault.name, ": ", wordsOf(d));
+                    MESSAGE(map.name, ", ", std::string(fault.name), ": ", wordsOf(d));
             }
         }
         MESSAGE(named, " of ", asked, " are named, and ", others, " that are none");
@@ -141,7 +141,7 @@ TEST_CASE("doctor: what no triangle uses is left out of account")
     }
     const Diagnosis d = *diagnose(channelsOf(atlas));
     CHECK(d.kind == Kind::tangentSpace);
-    CHECK(d.findings.empty());
+    CHECK_MESSAGE(d.findings.empty(), wordsOf(d));
     CHECK(diagnose(channelsOf(faulty))->has(Fault::greenMirrored));
 }
 
