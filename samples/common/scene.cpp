@@ -127,8 +127,9 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     return loaded;
 }
 
-void Scene::drawFile(const Surroundings& light) const
+void Scene::drawFile(const Surroundings& day) const
 {
+    const Surroundings light = inputs.usersScene->lightOf(day);
     const SceneFile& file = inputs.usersScene->file();
     for (const std::string& line : file.notes) note(line);
     for (const auto& texture : file.textures) log.textures.insert(texture.get());
