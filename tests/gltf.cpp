@@ -706,7 +706,11 @@ TEST_CASE("gltf: a .glb that is cut off anywhere, and files that are none")
 
 TEST_CASE("gltf: no random damage crashes the reader")
 {
-    const std::string whole = GltfFile::square().glb();
+    const std::string square = GltfFile::square().glb();
+    const json spot = {
+        {"type", "spot"}, {"intensity", 9}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.7}}}};
+    const json point = {{"type", "point"}, {"color", {1, 0.5, 0}}, {"range", 10}};
+    const std::string lit = withLights({spot, point}).glb();
     std::uint32_t state = 1;
     const auto random = [&state](std::size_t below) {
         state = state * 1664525u + 1013904223u;
@@ -715,12 +719,16 @@ TEST_CASE("gltf: no random damage crashes the reader")
     int read = 0;
     const TemporaryFolder folder;
     for (int trial = 0; trial < 1500; ++trial) {
-        std::string damaged = whole;
+        std::string damaged = trial % 2 == 0 ? square : lit;
         for (std::size_t i = 0; i <= random(3); ++i) {
             damaged[random(damaged.size())] = "0129-,:\"[]{}ex\xff"[random(15)];
         }
         const Expected<SceneFile> scene = readGltf(folder.write("a.glb", damaged).string());
         if (!scene) CHECK(scene.error().message.find('\n') == std::string::npos);
+        for (std::size_t i = 0; scene && i < scene->lights.size(); ++i) {
+            CHECK((scene->lights[i].intensity >= 0.0f && std::isfinite(scene->lights[i].intensity)));
+            CHECK(scene->lights[i].range > 0.0f);
+        }
         read += scene.has_value() ? 1 : 0;
     }
     CHECK(read > 50);
