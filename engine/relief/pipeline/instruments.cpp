@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 
+#include "relief/leave_out.h"
 #include "relief/pipeline/frame_storage.h"
 
 namespace relief::inline RELIEF_WIDTH {
@@ -135,8 +136,8 @@ Expected<DrawFacts> factsOf(const Frame& frame, int draw)
         };
         facts.stencil = facts.testsStencil && state.stencil.writeMask != 0 &&
                         !(keeps(state.stencil.front) && keeps(state.stencil.back));
-        facts.program =
-            facts.colors != 0 || d->programs->discards || state.alphaToCoverage || outputs.depth || outputs.coverage;
+        facts.program = !leavesOut::colors || facts.colors != 0 || d->programs->discards || state.alphaToCoverage ||
+                        outputs.depth || outputs.coverage;
         return facts;
     });
 }
