@@ -446,6 +446,68 @@ TEST_CASE("command line: explain names the pass that is left out because its lig
     CHECK(parsed["counts"]["passes (draws)"].get<int>() == 9 - static_cast<int>(parsed["notes"].size()));
 }
 
+TEST_CASE("command line: explain tells what the passes before the picture drew, and left out")
+{
+    const TemporaryFolder folder;
+    const auto explained = [&](const std::string& arguments) {
+        return nlohmann::json::parse(run(folder.path, "explain " + arguments + " --json").out)["passes"];
+    };
+    CHECK(explained("1.01 --size 96x54").empty());
+
+    // A depth alone: three draws whose program no target asks for.
+    const nlohmann::json depth = explained("5.03 --size 96x54 --set mapSize=64");
+    REQUIRE(depth.size() == 1);
+    CHECK(depth[0]["width"] == 64);
+    CHECK(depth[0]["counts"]["draws"] == 3);
+    CHECK(depth[0]["counts"]["pixels shaded"].get<int>() > 1000);
+    CHECK(depth[0]["counts"]["without their program"] == depth[0]["counts"]["pixels shaded"]);
+    CHECK(depth[0]["targets"].size() == 1);
+    CHECK(depth[0]["targets"][0] ==
+          nlohmann::json{{"name", "depth"}, {"format", "depth32f"}, {"kept", true}, {"read", true}});
+    for (const nlohmann::json& draw : depth[0]["draws"]) {
+        CHECK(draw["program"] == false);
+        CHECK(draw["writes"] == std::vector<std::string>{"depth"});
+        CHECK_FALSE(draw.contains("stencil"));
+    }
+    const std::string text = run(folder.path, "explain 5.03 --size 96x54").out;
+    CHECK(text.find("before the picture, a pass of 256x256\n") != std::string::npos);
+    CHECK(text.find("    draw 1, cube: writes depth; its program is not run\n") != std::string::npos);
+    CHECK(text.find("    target depth, depth32f: a texture afterwards\n") != std::string::npos);
+
+    // The floor marks its pixels; two mirrored solids are tested there, and each draw has its own counts.
+    const nlohmann::json mirror = explained("5.19 --size 96x54");
+    REQUIRE(mirror.size() == 1);
+    const nlohmann::json& draws = mirror[0]["draws"];
+    REQUIRE(draws.size() == 6);
+    CHECK(draws[0]["writes"] == std::vector<std::string>{"stencil"});
+    CHECK(draws[0]["program"] == false);
+    CHECK(draws[0]["stencil"]["failed"] == 0);
+    CHECK(draws[0]["stencil"]["passed"] == mirror[0]["counts"]["without their program"]);
+    std::uint64_t passed = 0, failed = 0;
+    for (const nlohmann::json& draw : draws) {
+        if (!draw.contains("stencil")) continue;
+        passed += draw["stencil"]["passed"].get<std::uint64_t>();
+        failed += draw["stencil"]["failed"].get<std::uint64_t>();
+    }
+    CHECK(mirror[0]["counts"]["stencil tests passed"] == passed);
+    CHECK(mirror[0]["counts"]["stencil tests failed"] == failed);
+    CHECK(draws[1]["writes"] == std::vector<std::string>{"colour", "depth"});
+    CHECK(draws[1].contains("stencil"));
+    CHECK_FALSE(draws[3].contains("stencil"));
+    CHECK(mirror[0]["targets"][2]["kept"] == false);
+
+    // Four colours in one draw, all of which are read; of the second pass the depth is not.
+    const nlohmann::json deferred = explained("5.20 --size 96x54");
+    REQUIRE(deferred.size() == 2);
+    CHECK(deferred[0]["draws"][0]["writes"] ==
+          std::vector<std::string>{"colour 0", "colour 1", "colour 2", "colour 3", "depth"});
+    for (const nlohmann::json& target : deferred[0]["targets"]) CHECK(target["read"] == true);
+    CHECK(deferred[1]["targets"][1]["read"] == false);
+    CHECK(
+        run(folder.path, "explain 5.20 --size 96x54").out.find("target depth, depth32f: kept, but nobody reads it\n") !=
+        std::string::npos);
+}
+
 TEST_CASE("command line: none in place of a picture leaves it out")
 {
     const TemporaryFolder folder;
@@ -738,7 +800,7 @@ TEST_CASE("command line: report leave-out counts for every stage what it did not
         CHECK(text.find(part) != std::string::npos);
     std::stringstream table(contents(folder.path / "r/leave-out.csv"));
     std::size_t rows = 0;
-    for (std::string line; std::getline(table, line); ++rows) CHECK(std::count(line.begin(), line.end(), ',') == 17);
+    for (std::string line; std::getline(table, line); ++rows) CHECK(std::count(line.begin(), line.end(), ',') == 20);
     CHECK(rows == relief::samples::allStages().size() + 1);
 #endif
 }

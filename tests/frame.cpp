@@ -90,7 +90,9 @@ bool sameCounters(const Statistics& a, const Statistics& b)
     return a.draws == b.draws && a.verticesShaded == b.verticesShaded && a.trianglesSubmitted == b.trianglesSubmitted &&
            a.culledFacing == b.culledFacing && a.culledNoSample == b.culledNoSample && a.outside == b.outside &&
            a.rasterised == b.rasterised && a.trianglesClipped == b.trianglesClipped && a.quadsShaded == b.quadsShaded &&
-           a.pixelsShaded == b.pixelsShaded && a.pixelsHidden == b.pixelsHidden && a.invalidColors == b.invalidColors;
+           a.pixelsShaded == b.pixelsShaded && a.pixelsColorless == b.pixelsColorless &&
+           a.pixelsHidden == b.pixelsHidden && a.stencilPassed == b.stencilPassed &&
+           a.stencilFailed == b.stencilFailed && a.invalidColors == b.invalidColors;
 }
 
 }  // namespace

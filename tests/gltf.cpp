@@ -436,6 +436,94 @@ TEST_CASE("gltf: the first camera with perspective")
     CHECK(scene.notes == std::vector<std::string>{"orthographic cameras are left out"});
 }
 
+namespace {
+
+// The square with these lights, each at a node of its own.
+GltfFile withLights(const json& lights)
+{
+    GltfFile file = GltfFile::square();
+    file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = lights;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        file.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+    }
+    return file;
+}
+
+}  // namespace
+
+TEST_CASE("gltf: lights, where their nodes are, with the numbers that the extension gives to what is left out")
+{
+    GltfFile file =
+        withLights({{{"type", "point"}},
+                    {{"type", "directional"}, {"intensity", 1000}, {"color", {1, 0.5, 0}}},
+                    {{"type", "spot"}, {"range", 8}, {"spot", json::object()}},
+                    {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 1.5707964}}}}});
+    file.json["extensionsRequired"] = {"KHR_lights_punctual"};
+    file.json["nodes"][1]["translation"] = {1, 2, 3};
+    file.json["nodes"][2]["rotation"] = {0, 0.7071067811865476, 0, 0.7071067811865476};  // -z becomes -x, ours +x
+    file.json["nodes"][3]["scale"] = {7, 7, 7};
+    const SceneFile scene = read(file);
+    CHECK(scene.notes.empty());
+    REQUIRE(scene.lights.size() == 4);
+    const SceneLight &point = scene.lights[0], &sun = scene.lights[1], &spot = scene.lights[2];
+    CHECK(point.kind == SceneLight::Kind::point);
+    CHECK(point.position == glm::vec3(-1, 2, 3));
+    CHECK(point.color == glm::vec3(1));
+    CHECK(point.intensity == 1.0f);
+    CHECK(std::isinf(point.range));
+    CHECK(sun.kind == SceneLight::Kind::directional);
+    CHECK(sun.intensity == 1000.0f);
+    CHECK(sun.color == glm::vec3(1, 0.5f, 0));
+    CHECK(glm::distance(sun.forward, glm::vec3(1, 0, 0)) < 1e-6f);
+    CHECK(spot.kind == SceneLight::Kind::spot);
+    CHECK(spot.forward == glm::vec3(0, 0, -1));
+    CHECK(spot.range == 8.0f);
+    CHECK(spot.cosInner == 1.0f);
+    CHECK(spot.cosOuter == doctest::Approx(std::sqrt(0.5f)));
+    CHECK(scene.lights[3].cosInner == doctest::Approx(std::cos(0.5f)));
+    CHECK(scene.lights[3].cosOuter == doctest::Approx(0.0f));
+    CHECK(read(GltfFile::square()).lights.empty());
+}
+
+TEST_CASE("gltf: lights with wrong values, and lights that are not there")
+{
+    const auto error = [](const json& light) { return errorOf(withLights(json::array({light}))); };
+    const std::string light = "extensions.KHR_lights_punctual.lights[0]";
+    CHECK(error({{"type", "point"}, {"intensity", 0}}).empty());
+    CHECK(contains(error({{"type", "sun"}}), light + ".type: is not directional, point or spot"));
+    CHECK(!error(json::object()).empty());
+    CHECK(contains(error({{"type", "point"}, {"intensity", -1}}), light + ".intensity: is not a number of at least 0"));
+    CHECK(contains(error({{"type", "point"}, {"intensity", 1e300}}), ".intensity"));
+    CHECK(!error({{"type", "point"}, {"intensity", "bright"}}).empty());
+    CHECK(contains(error({{"type", "point"}, {"range", 0}}), light + ".range: is not a number above 0"));
+    CHECK(contains(error({{"type", "point"}, {"color", {1, 1}}}), light + ".color: is not three numbers of 0 to 1"));
+    CHECK(contains(error({{"type", "point"}, {"color", {1, 1, 2}}}), ".color"));
+    CHECK(!error({{"type", "spot"}}).empty());
+    const auto cone = [&](double inner, double outer) {
+        return error({{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}});
+    };
+    CHECK(cone(0.2, 0.4).empty());
+    CHECK(contains(cone(0.4, 0.4), light + ".spot.innerConeAngle: is not less than outerConeAngle"));
+    CHECK(contains(cone(-0.1, 0.4), light + ".spot.innerConeAngle: is not an angle"));
+    CHECK(contains(cone(0.1, 1.6), light + ".spot.outerConeAngle: is not an angle"));
+
+    GltfFile file = withLights(json::array({{{"type", "directional"}}}));
+    for (const json& index : {json(1), json(-1), json(0.5), json("0"), json()}) {
+        CAPTURE(index.dump());
+        file.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = index;
+        CHECK(contains(errorOf(file), "nodes[1].extensions.KHR_lights_punctual.light: "));
+    }
+    file.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    file.json["nodes"][1]["scale"] = {1, 1, 0};
+    CHECK(contains(errorOf(file), "nodes[1]: its matrix leaves its light no direction"));
+    file.json.erase("extensions");
+    CHECK(!errorOf(file).empty());
+    file = withLights(json::array({{{"type", "point"}}}));
+    for (std::size_t i = 0; i < kMaxSceneLights; ++i) file.json["nodes"].push_back(file.json["nodes"][1]);
+    CHECK(contains(errorOf(file), "more than 256 lights"));
+}
+
 TEST_CASE("gltf: names of what is not there")
 {
     using File = GltfFile;
@@ -618,7 +706,11 @@ TEST_CASE("gltf: a .glb that is cut off anywhere, and files that are none")
 
 TEST_CASE("gltf: no random damage crashes the reader")
 {
-    const std::string whole = GltfFile::square().glb();
+    const std::string square = GltfFile::square().glb();
+    const json spot = {
+        {"type", "spot"}, {"intensity", 9}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.7}}}};
+    const json point = {{"type", "point"}, {"color", {1, 0.5, 0}}, {"range", 10}};
+    const std::string lit = withLights({spot, point}).glb();
     std::uint32_t state = 1;
     const auto random = [&state](std::size_t below) {
         state = state * 1664525u + 1013904223u;
@@ -627,12 +719,16 @@ TEST_CASE("gltf: no random damage crashes the reader")
     int read = 0;
     const TemporaryFolder folder;
     for (int trial = 0; trial < 1500; ++trial) {
-        std::string damaged = whole;
+        std::string damaged = trial % 2 == 0 ? square : lit;
         for (std::size_t i = 0; i <= random(3); ++i) {
             damaged[random(damaged.size())] = "0129-,:\"[]{}ex\xff"[random(15)];
         }
         const Expected<SceneFile> scene = readGltf(folder.write("a.glb", damaged).string());
         if (!scene) CHECK(scene.error().message.find('\n') == std::string::npos);
+        for (std::size_t i = 0; scene && i < scene->lights.size(); ++i) {
+            CHECK((scene->lights[i].intensity >= 0.0f && std::isfinite(scene->lights[i].intensity)));
+            CHECK(scene->lights[i].range > 0.0f);
+        }
         read += scene.has_value() ? 1 : 0;
     }
     CHECK(read > 50);

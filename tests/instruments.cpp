@@ -71,6 +71,55 @@ TEST_CASE("instruments: dependsOn is right without clear(), asked before the fra
     }
 }
 
+TEST_CASE("instruments: what one draw adds to the statistics, and what it writes")
+{
+    // The left half is marked; of the whole screen behind it the stencil lets half through, and the depth test nothing.
+    const Mesh whole = wholeScreen(0.5f), far = wholeScreen(0.75f);
+    for (const int samples : {1, 4}) {
+        Expected<Framebuffer> target = Framebuffer::create(
+            32, 16, {{Format::rgba32f}, {Format::rgba8}, {Format::depth32f}, {Format::stencil8}}, samples);
+        REQUIRE(target.has_value());
+        Frame frame(*target, {1, 16});
+        frame.clear(glm::vec4(0.0f));
+        frame.setScissor({0, 0, 16, 16});
+        RenderState mark = kDepthTested;
+        mark.colorWrite = false;
+        mark.stencil = bothSides(1, {.pass = StencilOp::replace});
+        REQUIRE(frame.draw(whole, GiveTwo{}, ShowFirst{}, mark).has_value());
+        frame.setScissor({0, 0, 32, 16});
+        RenderState marked = kDepthTested;
+        marked.stencil = bothSides(1, {.test = Compare::equal});
+        REQUIRE(frame.draw(far, GiveTwo{}, ShowFirst{}, marked).has_value());
+        REQUIRE(frame.draw(far, GiveTwo{}, ShowFirst{}, kDepthTested).has_value());
+        const Statistics all = frame.run();
+        const std::uint64_t hash = hashOf(*target);
+        const std::uint64_t half = 16 * 16 * static_cast<std::uint64_t>(samples);
+        const Statistics first = *statisticsOf(frame, 0), second = *statisticsOf(frame, 1),
+                         third = *statisticsOf(frame, 2);
+        CHECK(first.stencilPassed == half);
+        CHECK(first.stencilFailed == 0);
+        CHECK(second.stencilPassed == half);
+        CHECK(second.stencilFailed == half);
+        CHECK(second.pixelsShaded == 0);
+        CHECK(third.stencilPassed + third.stencilFailed == 0);
+        CHECK(third.pixelsShaded == 16 * 16);
+        CHECK(first.draws + second.draws + third.draws == all.draws);
+        CHECK(first.pixelsShaded + second.pixelsShaded + third.pixelsShaded == all.pixelsShaded);
+        CHECK(first.stencilPassed + second.stencilPassed == all.stencilPassed);
+        CHECK(frame.drawCount() == 3);
+        CHECK(hashOf(*target) == hash);
+        frame.run();
+        CHECK(hashOf(*target) == hash);
+
+        const DrawFacts marks = *factsOf(frame, 0), tests = *factsOf(frame, 1), plain = *factsOf(frame, 2);
+        CHECK((marks.colors == 0 && marks.depth && marks.stencil && marks.testsStencil && !marks.program));
+        CHECK((tests.colors == 1 && tests.depth && !tests.stencil && tests.testsStencil && tests.program));
+        CHECK((plain.colors == 1 && plain.depth && !plain.stencil && !plain.testsStencil && plain.program));
+        CHECK_FALSE(factsOf(frame, 3).has_value());
+        CHECK_FALSE(statisticsOf(frame, -1).has_value());
+    }
+}
+
 TEST_CASE("instruments: draws and components that are not there are errors, and an empty frame costs nothing")
 {
     const Mesh mesh = wholeScreen(0.5f);

@@ -345,7 +345,41 @@ TEST_CASE("leave out: S-1106 what is behind is not shaded, and a draw of depth a
     const Statistics both = frame.run();
     measured("pixels shaded behind", both.pixelsShaded - depthAlone.pixelsShaded, 0);
     CHECK(both.pixelsHidden == 64 * 48);
+    CHECK(both.pixelsColorless == 0);
     measured("texture fetches", both.fetches.trilinear + both.fetches.bilinear + both.fetches.nearest, 0);
+}
+
+TEST_CASE("leave out: a program is not run where no target keeps its colours, and is where it decides what is drawn")
+{
+    struct HalfOfIt
+    {
+        float4 operator()(const Interpolated& i, Discard& discard) const
+        {
+            discard(i.value.x < 0.5f);
+            return i.value;
+        }
+    };
+    Mesh whole;
+    addTriangle(whole, {{-1, -1, 0.5f, 1}, glm::vec4(1.0f)}, {{-1, 3, 0.5f, 1}, glm::vec4(1.0f)},
+                {{3, -1, 0.5f, 1}, glm::vec4(1.0f)});
+    Framebuffer depth = *Framebuffer::create(64, 48, {{Format::depth32f}});
+    Frame frame(depth, {1, kDefaultTileSize});
+    frame.clear(glm::vec4(0.0f));
+    frame.draw(whole, FromClip{}, Value{}, kDepthTested);
+    CHECK_FALSE(factsOf(frame, 0)->program);
+    const Statistics alone = frame.run();
+    CHECK(alone.pixelsShaded == 64 * 48);
+    // Builds that can put it back run the program nevertheless.
+    CHECK(alone.pixelsColorless == (leavesOut::colors ? 64 * 48 : 0));
+    CHECK((alone.blocksShaded == 0) == leavesOut::colors);
+    frame.reset();
+    frame.clear(glm::vec4(0.0f));
+    frame.draw(whole, FromClip{}, HalfOfIt{}, kDepthTested);
+    CHECK(factsOf(frame, 0)->program);
+    CHECK(factsOf(frame, 0)->colors == 0);
+    const Statistics decided = frame.run();
+    CHECK(decided.pixelsColorless == 0);
+    CHECK(decided.blocksShaded > 0);
 }
 
 TEST_CASE("leave out: S-1107 a light that does not reach needs no pass, and lights that are off change no bit")

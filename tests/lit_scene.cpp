@@ -2,6 +2,7 @@
 // everywhere.
 #include "common/lit_scene.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -337,4 +338,124 @@ TEST_CASE("lit scene: surroundings that are the same everywhere light a mirror a
     REQUIRE_FALSE(odd.has_value());
     CHECK(odd.error().message.starts_with(path));
     CHECK(odd.error().message.find('\n') == std::string::npos);
+}
+
+// --- the file's own lights ---
+
+namespace {
+
+// A rough white square that faces +z, and one light over it; how bright the middle is without any sky.
+struct LitSquare
+{
+    GltfFile file = GltfFile::square();
+
+    explicit LitSquare(const json& light, const json& node = json::object())
+    {
+        file.setMaterial({{"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
+        file.json["extensions"]["KHR_lights_punctual"]["lights"] = json::array({light});
+        file.json["nodes"].push_back(node);
+        file.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    }
+    std::vector<glm::vec4> picture(float sky = 0.0f) const
+    {
+        LitScene scene = sceneOf(file);
+        scene.lookFrom({.position = {0, 0, 3}});
+        samples::Surroundings day = samples::usualSurroundings();
+        day.sky = samples::clearSky(sky);
+        return drawn(scene, 1, scene.lightOf(day));
+    }
+    glm::vec4 middle() const { return ::middle(picture()); }
+};
+
+json at(double x, double y, double z)
+{
+    return {{"translation", {x, y, z}}};
+}
+
+constexpr double kPi = 3.14159265358979323846;
+
+// The same square under a sun of this strength, straight from the front.
+glm::vec4 underSun(float strength)
+{
+    GltfFile file = GltfFile::square();
+    file.setMaterial({{"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
+    LitScene scene = sceneOf(file);
+    scene.lookFrom({.position = {0, 0, 3}});
+    return middle(drawn(scene, 1, {.sun = {float3(strength), float3(0, 0, 1)}, .sky = samples::clearSky(0.0f)}));
+}
+
+}  // namespace
+
+TEST_CASE("lit scene: pi lux from the front are a sun of 1, and so are 4 pi candela from 2 metres")
+{
+    const glm::vec4 one = underSun(1.0f);
+    CHECK(one.x > 0.9f);
+    const auto isOne = [&](const glm::vec4& color) {
+        for (int i = 0; i < 3; ++i) CHECK(color[i] == doctest::Approx(one[i]).epsilon(1e-5));
+    };
+    isOne(LitSquare({{"type", "directional"}, {"intensity", kPi}}, at(5, 6, 7)).middle());
+    isOne(LitSquare({{"type", "point"}, {"intensity", kPi}}, at(0, 0, 1)).middle());
+    isOne(LitSquare({{"type", "point"}, {"intensity", 4 * kPi}}, at(0, 0, 2)).middle());
+    isOne(LitSquare({{"type", "spot"}, {"intensity", 4 * kPi}, {"spot", json::object()}}, at(0, 0, 2)).middle());
+    // Distances are the file's, however large its scene is.
+    LitSquare large({{"type", "point"}, {"intensity", 400 * kPi}}, at(0, 0, 20));
+    large.file.json["nodes"][0]["scale"] = {50, 50, 50};
+    isOne(large.middle());
+    const glm::vec4 half =
+        LitSquare({{"type", "point"}, {"color", {0.5, 1, 0}}, {"intensity", kPi}}, at(0, 0, 1)).middle();
+    CHECK(half.x == doctest::Approx(one.x / 2).epsilon(1e-5));
+    CHECK(half.y == doctest::Approx(one.y).epsilon(1e-5));
+    CHECK(half.z == 0.0f);
+    // Light from behind, or turned round, is none.
+    CHECK(LitSquare({{"type", "point"}, {"intensity", kPi}}, at(0, 0, -1)).middle().x == 0.0f);
+    json turned = at(0, 0, 2);
+    turned["rotation"] = {0, 1, 0, 0};
+    CHECK(LitSquare({{"type", "spot"}, {"spot", json::object()}}, turned).middle().x == 0.0f);
+    CHECK(LitSquare({{"type", "directional"}}, turned).middle().x == 0.0f);
+}
+
+TEST_CASE("lit scene: a light's range fades it out by 1 - (d / range)^4")
+{
+    const float one = underSun(1.0f).x;
+    const auto atRange = [&](double range) {
+        return LitSquare({{"type", "point"}, {"intensity", kPi}, {"range", range}}, at(0, 0, 1)).middle().x / one;
+    };
+    CHECK(atRange(2.0) == doctest::Approx(15.0 / 16.0).epsilon(1e-5));
+    CHECK(atRange(1.25) == doctest::Approx(1.0 - std::pow(0.8, 4)).epsilon(1e-5));
+    CHECK(atRange(1.0) == 0.0f);
+    CHECK(atRange(0.5) == 0.0f);
+    CHECK(atRange(1e30) == doctest::Approx(1.0).epsilon(1e-5));
+}
+
+TEST_CASE("lit scene: a spot is as bright as a point within its inner angle, dark beyond the outer, squared between")
+{
+    const auto part = [](double angle, double inner, double outer) {
+        const json node = at(std::sin(angle), 0, std::cos(angle));
+        const json cone = {{"innerConeAngle", inner}, {"outerConeAngle", outer}};
+        return LitSquare({{"type", "spot"}, {"spot", cone}}, node).middle().x /
+               LitSquare({{"type", "point"}}, node).middle().x;
+    };
+    CHECK(part(0.1, 0.2, 0.6) == doctest::Approx(1.0).epsilon(1e-5));
+    CHECK(part(0.7, 0.2, 0.6) == 0.0f);
+    for (const double angle : {0.3, 0.4, 0.5}) {
+        const double t = (std::cos(angle) - std::cos(0.6)) / (std::cos(0.2) - std::cos(0.6));
+        CHECK(part(angle, 0.2, 0.6) == doctest::Approx(t * t).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("lit scene: a file's lights stand where they are in the file, and the sky stays")
+{
+    const LitSquare right({{"type", "point"}, {"intensity", 1}}, at(0.8, 0, 0.3));
+    const std::vector<glm::vec4> picture = right.picture();
+    CHECK(at(picture, 22, 16).x > 4.0f * at(picture, 10, 16).x);
+    CHECK(at(right.picture(1.0f), 10, 16).x > at(picture, 10, 16).x + 0.1f);
+    // The first directional light is the sun, and casts the shadow; the others are added to it.
+    LitSquare two({{"type", "directional"}, {"intensity", kPi}}, at(0, 0, 0));
+    const float one = two.middle().x;
+    two.file.json["nodes"].push_back(two.file.json["nodes"][1]);
+    CHECK(two.middle().x == doctest::Approx(2.0f * one).epsilon(1e-5));
+    const LitScene scene = sceneOf(two.file);
+    const samples::Surroundings light = scene.lightOf(samples::usualSurroundings());
+    CHECK(light.lamps.size() == 1);
+    CHECK(light.sun.dir.z[0] == 1.0f);
 }

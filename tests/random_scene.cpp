@@ -456,7 +456,9 @@ bool sameCounts(const Statistics& a, const Statistics& b)
            a.culledFacing == b.culledFacing && a.culledNoSample == b.culledNoSample && a.outside == b.outside &&
            a.droppedNan == b.droppedNan && a.droppedInfinite == b.droppedInfinite && a.droppedIndex == b.droppedIndex &&
            a.rasterised == b.rasterised && a.trianglesClipped == b.trianglesClipped && a.quadsShaded == b.quadsShaded &&
-           a.pixelsShaded == b.pixelsShaded && a.pixelsHidden == b.pixelsHidden && a.invalidColors == b.invalidColors;
+           a.pixelsShaded == b.pixelsShaded && a.pixelsColorless == b.pixelsColorless &&
+           a.pixelsHidden == b.pixelsHidden && a.stencilPassed == b.stencilPassed &&
+           a.stencilFailed == b.stencilFailed && a.invalidColors == b.invalidColors;
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ namespace relief::leavesOut {
     each(planes, "texture/sampler.cpp", "planes without weight are fetched (triplanar)")                    \
     each(clipping, "pipeline/setup.cpp", "every triangle goes through the clipper")                         \
     each(tiles, "pipeline/frame.cpp", "tiles without triangles are drawn in tile memory")                   \
-    each(hidden, "pipeline/draw.cpp", "hidden pixels are shaded")
+    each(hidden, "pipeline/draw.cpp", "hidden pixels are shaded")                                           \
+    each(colors, "pipeline/draw.cpp", "programs run where no target keeps their colours")
 // clang-format on
 
 struct LeftOut

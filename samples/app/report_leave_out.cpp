@@ -15,8 +15,9 @@ namespace {
 
 using leavesOut::LeftOut;
 
-// A stage of each kind: depth, filters, detail textures, three objects and lights, two passes, three planes, one plane.
-constexpr const char* kSwitchedStages[] = {"0.03", "0.04", "1.15", "1.25", "2.06", "3.05", "4.07", "4.11"};
+// A stage of each kind: depth, filters, detail textures, three objects and lights, two passes, three planes, one plane,
+// a pass before the picture.
+constexpr const char* kSwitchedStages[] = {"0.03", "0.04", "1.15", "1.25", "2.06", "3.05", "4.07", "4.11", "5.05"};
 
 struct Switched
 {
@@ -63,14 +64,23 @@ std::string share(std::uint64_t part, std::uint64_t whole)
     return text("%.1f %%", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
+Statistics statisticsOfPasses(const Usage& usage)
+{
+    Statistics all;
+    for (const SceneLog::Pass& pass : usage.before) all += pass.statistics;
+    return all;
+}
+
 std::string countsTable(const std::vector<Counted>& all)
 {
     std::string table =
         "| stage | draws | passes left out | components not used | triangles not clipped | tiles not touched | hidden, "
-        "not shaded | samples | no derivatives | no second level | magnified | constant | mip levels not built |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+        "not shaded | without program, in passes before | samples | no derivatives | no second level | magnified | "
+        "constant | mip levels not built |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Counted& c : all) {
         const Statistics& s = c.usage.statistics;
+        const Statistics before = statisticsOfPasses(c.usage);
         const std::uint64_t samples = s.fetches.samples();
         table +=
             "| " + c.stage->name() + " | " + std::to_string(s.draws) + " | " + std::to_string(c.usage.passesLeftOut) +
@@ -78,10 +88,11 @@ std::string countsTable(const std::vector<Counted>& all)
             std::to_string(c.usage.componentsDeclared) + " | " +
             share(s.trianglesSubmitted - s.trianglesClipped, s.trianglesSubmitted) + " | " +
             share(s.tiles - s.tilesTouched, s.tiles) + " | " + share(s.pixelsHidden, s.pixelsHidden + s.pixelsShaded) +
-            " | " + std::to_string(samples) + " | " + share(s.fetches.noDerivatives, samples) + " | " +
-            share(s.fetches.secondLevelSkipped, samples) + " | " + share(s.fetches.magnified, samples) + " | " +
-            share(s.fetches.constant, samples) + " | " + std::to_string(c.usage.levelsWhole - c.usage.levelsBuilt) +
-            " of " + std::to_string(c.usage.levelsWhole) + " |\n";
+            " | " + share(before.pixelsColorless, before.pixelsShaded) + " | " + std::to_string(samples) + " | " +
+            share(s.fetches.noDerivatives, samples) + " | " + share(s.fetches.secondLevelSkipped, samples) + " | " +
+            share(s.fetches.magnified, samples) + " | " + share(s.fetches.constant, samples) + " | " +
+            std::to_string(c.usage.levelsWhole - c.usage.levelsBuilt) + " of " + std::to_string(c.usage.levelsWhole) +
+            " |\n";
     }
     return table;
 }
@@ -91,17 +102,31 @@ std::string countsCsv(const std::vector<Counted>& all)
     std::string lines =
         "stage,draws,passes_left_out,components,components_used,triangles,triangles_clipped,tiles,tiles_touched,"
         "pixels_shaded,pixels_hidden,samples,no_derivatives,second_level_skipped,magnified,constant,levels,"
-        "levels_built\n";
+        "levels_built,passes_before,pixels_before,pixels_before_without_program\n";
     for (const Counted& c : all) {
         const Statistics& s = c.usage.statistics;
+        const Statistics before = statisticsOfPasses(c.usage);
         lines += c.stage->id;
-        for (const std::uint64_t n :
-             {s.draws, static_cast<std::uint64_t>(c.usage.passesLeftOut),
-              static_cast<std::uint64_t>(c.usage.componentsDeclared),
-              static_cast<std::uint64_t>(c.usage.componentsUsed), s.trianglesSubmitted, s.trianglesClipped, s.tiles,
-              s.tilesTouched, s.pixelsShaded, s.pixelsHidden, s.fetches.samples(), s.fetches.noDerivatives,
-              s.fetches.secondLevelSkipped, s.fetches.magnified, s.fetches.constant,
-              static_cast<std::uint64_t>(c.usage.levelsWhole), static_cast<std::uint64_t>(c.usage.levelsBuilt)})
+        for (const std::uint64_t n : {s.draws,
+                                      static_cast<std::uint64_t>(c.usage.passesLeftOut),
+                                      static_cast<std::uint64_t>(c.usage.componentsDeclared),
+                                      static_cast<std::uint64_t>(c.usage.componentsUsed),
+                                      s.trianglesSubmitted,
+                                      s.trianglesClipped,
+                                      s.tiles,
+                                      s.tilesTouched,
+                                      s.pixelsShaded,
+                                      s.pixelsHidden,
+                                      s.fetches.samples(),
+                                      s.fetches.noDerivatives,
+                                      s.fetches.secondLevelSkipped,
+                                      s.fetches.magnified,
+                                      s.fetches.constant,
+                                      static_cast<std::uint64_t>(c.usage.levelsWhole),
+                                      static_cast<std::uint64_t>(c.usage.levelsBuilt),
+                                      static_cast<std::uint64_t>(c.usage.before.size()),
+                                      before.pixelsShaded,
+                                      before.pixelsColorless})
             lines += "," + std::to_string(n);
         lines += "\n";
     }
@@ -205,7 +230,10 @@ std::string document(const std::vector<Counted>& counted, const std::vector<Swit
            "STAGE` shows it: additive passes whose light does not reach the object (the lamps of 2.06 and 3.05 have no "
            "range, so all of their passes are drawn); interpolated components that no pixel depends on (their programs "
            "are the tutorials'); triangles that needed no clipping; tiles that no triangle touches; covered pixels "
-           "that failed the depth test before any shading; texture samples that took no derivatives, having no mip "
+           "that failed the depth test before any shading; pixels of passes before the picture, such as shadow maps, "
+           "that were "
+           "drawn without their program, as no target keeps its colours; texture samples that took no derivatives, "
+           "having no mip "
            "level to choose, whose second mip level has no part, that are magnified, or that are from a texture of one "
            "texel; mip levels that nothing asked for.\n\n" +
            countsTable(counted);

@@ -27,7 +27,7 @@ Expected<void> renderScene(const RenderOptions& options, const std::string& outp
         Framebuffer::create(size->width, size->height, Format::rgba8Srgb, Store::discard, options.samples);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = options.threads, .tileSize = options.tileSize});
-    Surroundings light = usualSurroundings();
+    Surroundings light = scene.lightOf(usualSurroundings());
     std::optional<Environment> environment;
     if (!options.files.textures[TextureSlot::environment].empty()) {
         Expected<Environment> read = readEnvironment(options.files.textures[TextureSlot::environment], options.threads);

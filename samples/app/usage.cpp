@@ -27,11 +27,13 @@ Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads)
     Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, Format::rgba32f);
     if (!target) return tl::unexpected(target.error());
     Frame frame(*target, {.threads = threads});
+    stage.log->tellsDraws = true;
     stage.record(frame, size.width, size.height);
     if (const std::string problem = stage.problem(frame); !problem.empty()) return fail(problem);
     Usage usage;
     usage.statistics = frame.run();
     countLevels(*stage.inputs, *stage.log, usage);
+    usage.before = stage.log->passes;
     usage.passesLeftOut = stage.log->passesLeftOut;
     for (int draw = 0; draw < frame.drawCount(); ++draw) {
         const int components = *componentCount(frame, draw);

@@ -17,10 +17,14 @@ struct Usage
     // of the textures that it made.
     int levelsBuilt = 0, levelsWhole = 0;
 
+    // Passes before the picture, in order.
+    std::vector<SceneLog::Pass> before;
+
     // Additive passes that were not drawn, because their light does not reach the object.
     int passesLeftOut = 0;
 };
 
+// What the passes point to is the stage's, and lives until it is recorded again.
 Expected<Usage> usageOf(const PreparedStage& stage, Size size, int threads);
 
 }  // namespace relief::samples

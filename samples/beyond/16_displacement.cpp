@@ -1,5 +1,5 @@
 // 5.16 Displacement: Cook 1984
-// New: the relief as geometry, and how far from it each of 5.11 to 5.14 is: in distance, and in angle.
+// New: the relief as geometry, and how far from it each of 5.10 to 5.15 is: in distance, and in angle.
 // Was: methods that move a picture on a flat quad (5.15).
 #include "common/false_color.h"
 #include "common/parallax_methods.h"
@@ -26,6 +26,7 @@ struct Interpolators {
 
 struct Relief : ParallaxMaterial {
     sampler2D normalMap = normals("bricks-heights.png", normalMapSettings(0.06f));  // as steep as the geometry
+    Float cells = number("cells", 256.0f, {1, 1024}, "of the geometry, along each side");
     Float maximumDistance = number("maximumDistance", 0.1f, {0.001f, 1}, "red, in widths of the quad");
     Float maximumAngle = number("maximumAngle", 60.0f, {1, 180}, "red, degrees");
 };
@@ -61,8 +62,8 @@ struct MyVertexProgram : Relief {
 // A picture; or which point of the relief is seen, as its uv, and the normal there. uv begins at 1: 0 is nothing.
 template <ParallaxMethod METHOD, bool PICTURE>
 struct MyFragmentProgram : Relief {
-    Float parallaxBias = number("parallaxBias", 0.42f, {0, 1}, "of 5.11; 0 is 5.10, in essence");
-    Float steps = number("steps", 10.0f, {1, 128}, "layers of 5.12 to 5.14");
+    Float parallaxBias = number("parallaxBias", 0.42f, {0, 1}, "of 5.11");
+    Float steps = number("steps", 10.0f, {1, 128}, "layers of 5.12 to 5.15");
 
     float4 operator()(Interpolators i) const {
         // Errors are those of the methods, not of filters: of the finest level.
@@ -73,7 +74,10 @@ struct MyFragmentProgram : Relief {
         if constexpr (METHOD == ParallaxMethod::none) normal = normalize(i.normal);
         if constexpr (!PICTURE) return float4(i.uv + 1.0f, normal.xy());
         const float3 albedo = tex2Dgrad(mainTex, i.uv, dx, dy).rgb();
-        return float4(albedo * (light.color * saturate(dot(normal, normalize(i.lightDir))) + ambient), 1);
+        Float diffuse = saturate(dot(normal, normalize(i.lightDir)));
+        if constexpr (METHOD == ParallaxMethod::selfShadow)
+            diffuse *= SelfShadow(i.lightDir, parallaxStrength, steps, heightAt);
+        return float4(albedo * (light.color * diffuse + ambient), 1);
     }
 };
 
@@ -98,18 +102,12 @@ struct ShowScale {
     float4 operator()(ScreenInterpolators i) const { return float4(falseColor(i.uv.x), 1); }
 };
 
-struct Cells : Uniforms {
-    Float cells = number("cells", 256.0f, {1, 1024}, "of the geometry, along each side");
-};
-
 template <ParallaxMethod METHOD, bool PICTURE>
 void DrawRelief(const Scene& s) {
     const Relief relief = s.uniforms();
-    const Cells cells = s.uniforms();
-    // 5.11 moves the picture up and down from the middle height: its quad lies there.
-    const float down = METHOD == ParallaxMethod::limited ? -0.5f * relief.parallaxStrength[0] : 0.0f;
+    const float down = BeginsInTheMiddle(METHOD) ? -0.5f * relief.parallaxStrength[0] : 0.0f;
     const Uniforms its = s.uniforms(translation({0, down, 0}) * s.lying().worldFromObject);
-    const int side = static_cast<int>(cells.cells[0]);
+    const int side = static_cast<int>(relief.cells[0]);
     const Mesh& mesh = METHOD == ParallaxMethod::none ? s.keep(makeGrid(side, side)) : s.mesh;
     s.draw(mesh, MyVertexProgram<METHOD == ParallaxMethod::none>(its), MyFragmentProgram<METHOD, PICTURE>(its));
 }
@@ -127,7 +125,7 @@ sampler2D SeenBy(const Scene& s) {
 template <ParallaxMethod METHOD>
 void DrawRow(const Scene& s, const char* name, const sampler2D& truth) {
     constexpr int row = static_cast<int>(METHOD);
-    s.cutCell(0, 3, row, 5);
+    s.cutCell(0, 3, row, kParallaxMethods);
     DrawRelief<METHOD, true>(s);
     s.label(name);
     if constexpr (METHOD == ParallaxMethod::none) return;
@@ -136,9 +134,9 @@ void DrawRow(const Scene& s, const char* name, const sampler2D& truth) {
     ShowError<true> angle = s.uniforms();
     distance.seen = angle.seen = seen;
     distance.truth = angle.truth = truth;
-    s.cutCell(1, 3, row, 5);
+    s.cutCell(1, 3, row, kParallaxMethods);
     s.draw(primitive("quad"), ScreenVertexProgram{}, distance);
-    s.cutCell(2, 3, row, 5);
+    s.cutCell(2, 3, row, kParallaxMethods);
     s.draw(primitive("quad"), ScreenVertexProgram{}, angle);
 }
 
@@ -147,21 +145,23 @@ void DrawRow(const Scene& s, const char* name, const sampler2D& truth) {
 Stage beyond_16_displacement() {
     return {.title = "Displacement",
             .section = "Cook 1984",
-            .news = "The relief as geometry, and the distance and the angle to it of 5.11 to 5.14.",
-            .uniforms = declared<MyFragmentProgram<ParallaxMethod::relief, true>, Cells>(),
-            .camera = {.position = {-0.55f, 1.0f, -2.4f}, .target = {0.05f, -0.03f, 0.0f}, .fieldOfView = 46.0f},
+            .news = "The relief as geometry, and the distance and the angle to it of 5.10 to 5.15.",
+            .uniforms = declared<MyFragmentProgram<ParallaxMethod::relief, true>>(),
+            .camera = {.position = {-0.76f, 1.36f, -3.24f}, .target = {0.05f, -0.03f, 0.0f}, .fieldOfView = 46.0f},
             .draw = [](const Scene& s) {
                 const sampler2D truth = SeenBy<ParallaxMethod::none>(s);
                 const Relief relief = s.uniforms();
                 DrawRow<ParallaxMethod::none>(s, "geometry", truth);
+                DrawRow<ParallaxMethod::parallax>(s, "5.10 parallax", truth);
                 DrawRow<ParallaxMethod::limited>(s, "5.11 limited", truth);
                 DrawRow<ParallaxMethod::steep>(s, "5.12 steep", truth);
                 DrawRow<ParallaxMethod::occlusion>(s, "5.13 occlusion", truth);
                 DrawRow<ParallaxMethod::relief>(s, "5.14 relief", truth);
-                s.cutCell(1, 3, 0, 5);
+                DrawRow<ParallaxMethod::selfShadow>(s, "5.15 self shadow", truth);
+                s.cutCell(1, 3, 0, kParallaxMethods);
                 s.draw(primitive("quad"), ScreenVertexProgram{0.28f, 0.05f}, ShowScale{});
                 s.label("distance, 0 to " + shortNumber(relief.maximumDistance[0]));
-                s.cutCell(2, 3, 0, 5);
+                s.cutCell(2, 3, 0, kParallaxMethods);
                 s.draw(primitive("quad"), ScreenVertexProgram{0.28f, 0.05f}, ShowScale{});
                 s.label("angle, 0 to " + shortNumber(relief.maximumAngle[0]) + " degrees");
             }};

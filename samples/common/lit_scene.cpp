@@ -168,10 +168,15 @@ struct Surface
         Float oneMinusReflectivity;
         const float3 diffuse = DiffuseAndSpecularFromMetallic(base, metallicRoughness.z * material.metallic, specular,
                                                               oneMinusReflectivity);
-        const float3 direct = UNITY_BRDF_PBS_Exact(diffuse, specular, 1.0f - roughness, normal, viewDir,
-                                                   CreateLight(light.sun, i.worldPos))
-                                  .xyz() *
-                              shadow(i);
+        float3 direct = UNITY_BRDF_PBS_Exact(diffuse, specular, 1.0f - roughness, normal, viewDir,
+                                             CreateLight(light.sun, i.worldPos))
+                            .xyz() *
+                        shadow(i);
+        for (const PunctualLight& lamp : light.lamps) {
+            direct += UNITY_BRDF_PBS_Exact(diffuse, specular, 1.0f - roughness, normal, viewDir,
+                                           CreateLight(lamp, i.worldPos))
+                          .xyz();
+        }
         const Float occlusion = 1.0f + (sampled(material.occlusionTexture, i.uv).x - 1.0f) * material.occlusionStrength;
         const float3 emitted = sampled(material.emissiveTexture, i.uv).xyz() * broadcast(material.emissive);
         return direct + ambient(diffuse, specular, oneMinusReflectivity, roughness, normal, viewDir) * occlusion +
@@ -277,6 +282,23 @@ LitScene::LitScene(SceneFile itsScene) : scene(std::move(itsScene))
     for (int i = 0; i < 3; ++i) extent = std::max(extent, bounds.high[i] * 0.5f - bounds.low[i] * 0.5f);
     scale = extent > 0.0f ? std::clamp(kExtent * 0.5f / extent, 1e-30f, 1e30f) : 1.0f;
     worldFromScene = scaling(glm::vec3(scale)) * translation(-bounds.centre());
+    for (const SceneLight& light : scene.lights) {
+        const PunctualLight lamp = punctualLight(light, worldFromScene, scale);
+        if (light.kind == SceneLight::Kind::directional && !filesSun) {
+            filesSun = DirectionalLight{lamp.color, lamp.dir};
+        } else {
+            filesLamps.push_back(lamp);
+        }
+    }
+}
+
+Surroundings LitScene::lightOf(const Surroundings& day) const
+{
+    if (scene.lights.empty()) return day;
+    Surroundings its = day;
+    its.sun = filesSun.value_or(DirectionalLight{float3(0.0f), day.sun.dir});
+    its.lamps = filesLamps;
+    return its;
 }
 
 Expected<SunShadow> LitScene::shadowOf(const float3& sun, int threads, int side) const

@@ -1,8 +1,9 @@
 // A scene of a file (scene/gltf.h), lit: what `render --scene` draws. glTF's metallic-roughness materials under one
-// sun, which casts shadows, and a sky: of two colours, or a picture.
+// sun, which casts shadows, and a sky: of two colours, or a picture; or under the file's own lights and that sky.
 #pragma once
 
 #include "common/camera.h"
+#include "common/punctual_lights.h"
 #include "relief/pipeline/frame.h"
 #include "relief/scene/scene_file.h"
 #include "relief/shading/environment.h"
@@ -36,8 +37,9 @@ struct Surroundings
 {
     DirectionalLight sun;
     SphericalHarmonics sky;
-    const CubeMap* mirrored = nullptr;  // none: the sky, which is as smooth as the roughest
-    const SunShadow* shadow = nullptr;  // none: the sun shines through everything
+    const CubeMap* mirrored = nullptr;          // none: the sky, which is as smooth as the roughest
+    const SunShadow* shadow = nullptr;          // none: the sun shines through everything
+    std::span<const PunctualLight> lamps = {};  // they shine through everything
 };
 
 // A clear day, from the left of a camera that looks along -z; and its sky alone.
@@ -56,6 +58,10 @@ public:
         glm::mat4 clipFromWorld;
         glm::vec3 position;
     };
+
+    // The light of a file that has lights: its first directional one in place of the sun, or none, all others as lamps,
+    // and the sky as it is. Of another file the light itself. The scene must outlive it.
+    Surroundings lightOf(const Surroundings& day) const;
 
     // Records the scene on a cleared frame of a target of this size: what is opaque in the file's order, then what is
     // blended from the farthest to the nearest, by the middle of each instance's bounds. Two-sided triangles are drawn
@@ -83,6 +89,8 @@ private:
     SceneFile scene;
     glm::mat4 worldFromScene;
     float scale;
+    std::optional<DirectionalLight> filesSun;
+    std::vector<PunctualLight> filesLamps;
     std::optional<Camera> chosen;
 };
 

@@ -127,8 +127,9 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     return loaded;
 }
 
-void Scene::drawFile(const Surroundings& light) const
+void Scene::drawFile(const Surroundings& day) const
 {
+    const Surroundings light = inputs.usersScene->lightOf(day);
     const SceneFile& file = inputs.usersScene->file();
     for (const std::string& line : file.notes) note(line);
     for (const auto& texture : file.textures) log.textures.insert(texture.get());
@@ -155,6 +156,7 @@ void SceneLog::clear()
         tangents.erase(&mesh);
     }
     drawn.clear();
+    passes.clear();
     notes.clear();
     labels.clear();
     problem.clear();
@@ -206,9 +208,13 @@ Framebuffer& Scene::pass(Framebuffer made, const glm::mat4& clip, const std::fun
     ofPass.clear(glm::vec4(0.0f));
     record(Scene(*this, ofPass, target, clip));
     if (log.problem.empty()) log.problem = ofPass.problem();
-    const Statistics statistics = ofPass.run();
-    note("before the picture: a pass of " + std::to_string(target.width()) + "x" + std::to_string(target.height()) +
-         ", " + std::to_string(statistics.draws) + " draws, " + std::to_string(statistics.rasterised) + " triangles");
+    SceneLog::Pass its = {.target = &target};
+    for (int draw = 0; draw < ofPass.drawCount(); ++draw) {
+        its.draws.push_back(*factsOf(ofPass, draw));
+        if (log.tellsDraws) its.ofDraws.push_back(*statisticsOf(ofPass, draw));
+    }
+    its.statistics = ofPass.run();
+    log.passes.push_back(std::move(its));
     log.drawn.resize(drawnBefore);  // what lines are drawn over is the picture
     log.viewport = viewport;
     log.scissor = scissor;
@@ -226,6 +232,9 @@ sampler2D Scene::sampled(const Framebuffer& target, int attachment) const
     if (!texture) {
         log.problem = texture.error().message;
         return {};
+    }
+    for (SceneLog::Pass& pass : log.passes) {
+        if (pass.target == &target) pass.read |= 1u << attachment;
     }
     const Texture& made = log.rendered.emplace_back(std::move(*texture));
     return {.texture = &made,

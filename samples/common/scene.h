@@ -15,6 +15,7 @@
 #include "common/input_files.h"
 #include "common/overlay.h"
 #include "common/uniforms.h"
+#include "relief/pipeline/instruments.h"
 #include "relief/shading/normals.h"
 #include "relief/shading/tangent_space.h"
 
@@ -59,6 +60,20 @@ struct SceneLog
         Rectangle scissor;
     };
     std::vector<Drawn> drawn;
+
+    // A pass before the picture, for explain: what it drew, which attachments of its target became textures, a bit for
+    // each, and, where `tellsDraws`, what each draw added to the statistics.
+    struct Pass
+    {
+        const Framebuffer* target;
+        Statistics statistics;
+        std::vector<DrawFacts> draws;
+        std::vector<Statistics> ofDraws;
+        unsigned read = 0;
+    };
+    std::vector<Pass> passes;
+    bool tellsDraws = false;
+
     std::vector<std::string> notes;   // what was left out, and what was measured; for explain
     std::vector<Label> labels;        // for who shows the picture (inside.h)
     std::string problem;              // with the stage itself, one line
@@ -76,7 +91,7 @@ struct SceneLog
     Viewport viewport;  // of the next draws
     Rectangle scissor;
 
-    // For the next frame; uvs and tangents stay.
+    // For the next frame; uvs and tangents stay, and what explain asks for.
     void clear();
 };
 

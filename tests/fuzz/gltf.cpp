@@ -22,5 +22,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const bool needsTangents = scene->materials[instance.material].hasNormalMap();
         if (needsTangents && scene->meshes[instance.mesh].tangents.empty()) std::abort();
     }
+    for (const relief::SceneLight& light : scene->lights) {
+        const bool isSpot = light.kind == relief::SceneLight::Kind::spot;
+        if (!(light.intensity >= 0.0f) || !(light.range > 0.0f) || (isSpot && !(light.cosOuter <= light.cosInner)))
+            std::abort();
+    }
     return scene->instances.empty() ? (std::abort(), 1) : 0;
 }

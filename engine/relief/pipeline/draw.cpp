@@ -27,7 +27,8 @@ constexpr int kBlocksOfLargeTriangle = 64;
 // Of one run of blocks.
 struct Counts
 {
-    unsigned blocks = 0, quadPixels = 0, pixels = 0, covered = 0, invalid = 0;
+    unsigned blocks = 0, quadPixels = 0, pixels = 0, colorless = 0, covered = 0, invalid = 0;
+    unsigned stencilTested = 0, stencilPassed = 0;
 };
 
 // What of a draw's state a block asks for: any, with one sample a pixel or several, or the usual one, of which the
@@ -135,12 +136,17 @@ DepthBounds depthsOf(const TriangleWeights& triangle)
 // pass.
 template <class State>
 [[gnu::noinline]] unsigned testStencilAndDepth(const State& state, bool isFront, unsigned lanes, Float depth,
-                                               const DepthBounds& between, int block, int sample, Tile& tile)
+                                               const DepthBounds& between, int block, int sample, Tile& tile,
+                                               Counts& counts)
 {
     const StencilFace& face = isFront ? state.stencil.front : state.stencil.back;
     std::int32_t* const words = state.usesStencil ? tile.stencil(sample) : nullptr;
     const unsigned tested = lanes;
-    if (words != nullptr) lanes &= testStencil(state.stencil, face, Int::load(words)).bits();
+    if (words != nullptr) {
+        lanes &= testStencil(state.stencil, face, Int::load(words)).bits();
+        counts.stencilTested += static_cast<unsigned>(countBits(tested));
+        counts.stencilPassed += static_cast<unsigned>(countBits(lanes));
+    }
     const unsigned passed = lanes;
     if (state.usesDepth) {
         float* const stored = tile.depth(sample);
@@ -195,7 +201,7 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
             // and all pixels are shaded
         } else if (state.usesStencil) {
             live = testStencilAndDepth(state, triangle.isFront, live, weights.depth(edge[1], edge[2]),
-                                       depthsOf(weights), index, index, tile);
+                                       depthsOf(weights), index, index, tile, counts);
             if (leavesOut::hidden && live == 0) return false;
         } else if (state.usesDepth) {
             float* const stored = tile.depth(index);
@@ -248,7 +254,8 @@ bool testEarly(const State& state, const TriangleInTile<true>& triangle, const C
         if (state.testsLate) {
             // and all samples are shaded
         } else if (!state.decides) {
-            lanes = testStencilAndDepth(state, triangle.isFront, lanes, depth, depthsOf(weights), index, sample, tile);
+            lanes = testStencilAndDepth(state, triangle.isFront, lanes, depth, depthsOf(weights), index, sample, tile,
+                                        counts);
         } else if (state.usesDepth) {
             lanes &= compareBy(state.depthTest, depth, Float::load(tile.depth(sample))).bits();
         }
@@ -277,7 +284,7 @@ unsigned keptLanes(const Draw& draw, const ShadedBlock& block, unsigned lanes, i
 // After the program: the tests that waited for it, or the depth of what is left. Returns the lanes that are drawn.
 template <class State>
 unsigned testLate(const State& state, bool isFront, const TriangleWeights& weights, const TriangleEdges& edges,
-                  const ShadedBlock& block, unsigned lanes, int sample, Tile& tile)
+                  const ShadedBlock& block, unsigned lanes, int sample, Tile& tile, Counts& counts)
 {
     if (!state.usesDepth && !state.testsLate) return lanes;
     Float edge[3];
@@ -288,28 +295,30 @@ unsigned testLate(const State& state, bool isFront, const TriangleWeights& weigh
         depth = saturate(Float::load(block.more->depth));
         between = {0.0f, 1.0f};
     }
-    if (state.testsLate) return testStencilAndDepth(state, isFront, lanes, depth, between, block.index, sample, tile);
+    if (state.testsLate)
+        return testStencilAndDepth(state, isFront, lanes, depth, between, block.index, sample, tile, counts);
     float* const stored = tile.depth(sample);
     writeDepth(state, between, false, lanes, depth, Float::load(stored), stored, tile.bounds(block.index));
     return lanes;
 }
 template <class State>
 void testLate(const State& state, const Draw& draw, const TriangleInTile<false>& triangle, ShadedBlock& block,
-              Tile& tile)
+              Tile& tile, Counts& counts)
 {
     const unsigned lanes = keptLanes(draw, block, block.live, 0, 1);
-    block.live = testLate(state, triangle.isFront, triangle.weights, triangle.edges, block, lanes, block.index, tile);
+    block.live =
+        testLate(state, triangle.isFront, triangle.weights, triangle.edges, block, lanes, block.index, tile, counts);
 }
 template <class State>
 void testLate(const State& state, const Draw& draw, const TriangleInTile<true>& triangle, ShadedBlock& block,
-              Tile& tile)
+              Tile& tile, Counts& counts)
 {
     block.live = 0;
     for (int s = 0; s < tile.samples().count; ++s) {
         const auto number = static_cast<std::size_t>(s);
         const unsigned kept = keptLanes(draw, block, block.liveSamples[number], s, tile.samples().count);
         const unsigned lanes = testLate(state, triangle.isFront, triangle.weights, triangle.sampleEdges[number], block,
-                                        kept, tile.sampleOf(block.index, s), tile);
+                                        kept, tile.sampleOf(block.index, s), tile, counts);
         block.liveSamples[number] = static_cast<std::uint16_t>(lanes);
         block.live |= lanes;
     }
@@ -382,7 +391,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
 {
     constexpr bool severalSamples = State::severalSamples;
     const unsigned targets = draw.state.colorWrite ? state.outputs.targets & tile.colors() : 0;
-    const bool runsProgram = targets != 0 || state.decides;
+    const bool runsProgram = !leavesOut::colors || targets != 0 || state.decides;
     const std::size_t groupSize = state.decides ? 1 : kBlocksPerGroup;
     const bool isLarge = static_cast<int>(blocks.size()) >= kBlocksOfLargeTriangle * countBits(batch.visible);
     constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -405,10 +414,10 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
             if (testEarly(state, triangle, *next, of, inTile, *free, tile, counts)) ++free;
         }
         const std::span<ShadedBlock> shaded(group.data(), free);
-        counts.blocks += static_cast<unsigned>(shaded.size());
         if (!runsProgram || shaded.empty()) continue;
+        counts.blocks += static_cast<unsigned>(shaded.size());
         draw.programs->shadeBlocks(draw.fragmentProgram.get(), shaded, batch, corners.data());
-        if (state.decides) testLate(state, draw, triangle, group[0], tile);
+        if (state.decides) testLate(state, draw, triangle, group[0], tile, counts);
         const auto merge = [&](int target) {
             withFormat(tile.colorFormat(target), [&]<Format format>() {
                 counts.invalid += mergeBlocks<format, severalSamples>(shaded, target, draw.state.blend, tile);
@@ -420,6 +429,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
             for (unsigned rest = targets; rest != 0; rest &= rest - 1) merge(std::countr_zero(rest));
         }
     }
+    if (!runsProgram) counts.colorless = counts.pixels;
     if (!state.depthWrite) return;
     updateBounds(state.depthTest, 0.0f, 1.0f, false, tile.wholeBounds());  // whatever was written
     if (isLarge) tile.refreshWholeBounds();
@@ -456,6 +466,9 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     statistics.blocksShaded += counts.blocks;
     statistics.quadsShaded += counts.quadPixels / 4;
     statistics.pixelsShaded += counts.pixels;
+    statistics.pixelsColorless += counts.colorless;
+    statistics.stencilPassed += counts.stencilPassed;
+    statistics.stencilFailed += counts.stencilTested - counts.stencilPassed;
     statistics.pixelsHidden += counts.covered - counts.pixels;
     statistics.invalidColors += counts.invalid;
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
+#include "relief/leave_out.h"
 #include "relief/pipeline/frame_storage.h"
 
 namespace relief::inline RELIEF_WIDTH {
@@ -115,6 +117,50 @@ Expected<bool> dependsOn(Frame& frame, int draw, int component)
     const bool same = s.target.samePixels(asItIs);
     s.target = before;
     return !same;
+}
+
+Expected<DrawFacts> factsOf(const Frame& frame, int draw)
+{
+    const Framebuffer& target = frame.internals().target;
+    return drawOf(frame, draw).map([&target](const Draw* d) {
+        const RenderState& state = d->state;
+        const Outputs& outputs = d->programs->outputs;
+        DrawFacts facts = {d->mesh, 0, false, false, false, false};
+        for (int n = 0; n < kMaxColors; ++n) {
+            if (state.colorWrite && target.colorIndex(n) >= 0) facts.colors |= outputs.targets & 1u << n;
+        }
+        facts.depth = target.depthIndex() >= 0 && state.depthWrite;
+        facts.testsStencil = target.stencilIndex() >= 0 && state.stencil.isUsed();
+        const auto keeps = [](const StencilFace& face) {
+            return face.fail == StencilOp::keep && face.depthFail == StencilOp::keep && face.pass == StencilOp::keep;
+        };
+        facts.stencil = facts.testsStencil && state.stencil.writeMask != 0 &&
+                        !(keeps(state.stencil.front) && keeps(state.stencil.back));
+        facts.program = !leavesOut::colors || facts.colors != 0 || d->programs->discards || state.alphaToCoverage ||
+                        outputs.depth || outputs.coverage;
+        return facts;
+    });
+}
+
+Expected<Statistics> statisticsOf(Frame& frame, int draw)
+{
+    const Expected<const Draw*> asked = drawOf(frame, draw);
+    if (!asked) return tl::unexpected(asked.error());
+    Frame::Storage& s = frame.internals();
+    const Framebuffer before = s.target;
+    std::vector<Draw> rest;
+    const auto runFirst = [&](int count) {
+        const auto from = s.draws.begin() + count;
+        rest.insert(rest.begin(), std::make_move_iterator(from), std::make_move_iterator(s.draws.end()));
+        s.draws.erase(from, s.draws.end());
+        const Statistics statistics = s.run();
+        s.target = before;
+        return statistics;
+    };
+    Statistics its = runFirst(draw + 1);
+    its -= runFirst(draw);
+    s.draws.insert(s.draws.end(), std::make_move_iterator(rest.begin()), std::make_move_iterator(rest.end()));
+    return its;
 }
 
 float shadeAlone(const Frame& frame, std::uint64_t blocks)

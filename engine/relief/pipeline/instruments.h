@@ -19,6 +19,22 @@ Expected<std::string> outputSignature(const Frame& frame, int draw);
 // component that is not there.
 Expected<bool> dependsOn(Frame& frame, int draw, int component);
 
+// What a draw asks for: its mesh's name; what it may write of the frame's target, a bit for each SV_Target<n>, depth
+// and stencil; whether it tests a stencil that the target has; and whether its fragment program runs, which it does not
+// where no colour is kept and it decides nothing. An error for a draw that is not there.
+struct DrawFacts
+{
+    std::string mesh;
+    unsigned colors;
+    bool depth, stencil, testsStencil, program;
+};
+Expected<DrawFacts> factsOf(const Frame& frame, int draw);
+
+// What one draw adds to the frame's statistics: the draws up to it are drawn onto what the target holds now, with it
+// and without it. As with dependsOn, the target holds the same afterwards, and a frame that does not clear has to be
+// asked before it runs.
+Expected<Statistics> statisticsOf(Frame& frame, int draw);
+
 // What the frame's fragment programs cost by themselves: runs each of them on `blocks` blocks in all, on the inputs of
 // one block in every tile, without raster, depth test, blending and memory; the interpolation of what they read is
 // theirs. After run(); nothing happens where there is nothing to draw. Returns a sum of the results.

@@ -4,16 +4,32 @@
 
 namespace relief {
 
-Statistics& Statistics::operator+=(const Statistics& other)
+namespace {
+
+// Every member is a counter: the structs are arrays of them.
+template <class Operation>
+void forEachCounter(Statistics& to, const Statistics& from, Operation operation)
 {
-    // Every member is a counter: the structs are arrays of them.
     static_assert(sizeof(Statistics) % sizeof(std::uint64_t) == 0);
     constexpr std::size_t counters = sizeof(Statistics) / sizeof(std::uint64_t);
     std::uint64_t mine[counters], theirs[counters];
-    std::memcpy(mine, this, sizeof mine);
-    std::memcpy(theirs, &other, sizeof theirs);
-    for (std::size_t i = 0; i < counters; ++i) mine[i] += theirs[i];
-    std::memcpy(this, mine, sizeof mine);
+    std::memcpy(mine, &to, sizeof mine);
+    std::memcpy(theirs, &from, sizeof theirs);
+    for (std::size_t i = 0; i < counters; ++i) operation(mine[i], theirs[i]);
+    std::memcpy(&to, mine, sizeof mine);
+}
+
+}  // namespace
+
+Statistics& Statistics::operator+=(const Statistics& other)
+{
+    forEachCounter(*this, other, [](std::uint64_t& mine, std::uint64_t theirs) { mine += theirs; });
+    return *this;
+}
+
+Statistics& Statistics::operator-=(const Statistics& other)
+{
+    forEachCounter(*this, other, [](std::uint64_t& mine, std::uint64_t theirs) { mine -= theirs; });
     return *this;
 }
 

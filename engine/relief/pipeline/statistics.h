@@ -27,16 +27,21 @@ struct Statistics
     std::uint64_t trianglesBinned = 0;   // triangle and tile pairs
 
     std::uint64_t tiles = 0;
-    std::uint64_t tilesTouched = 0;   // tiles that a triangle was binned into
-    std::uint64_t blocksShaded = 0;   // runs of the fragment program
-    std::uint64_t quadsShaded = 0;    // 2x2 pixels with at least one live pixel
-    std::uint64_t pixelsShaded = 0;   // live pixels: lanes whose result counted
-    std::uint64_t pixelsHidden = 0;   // covered, but failed the depth test before shading
-    std::uint64_t invalidColors = 0;  // pixels whose colour had a NaN or an infinity, which was replaced
+    std::uint64_t tilesTouched = 0;     // tiles that a triangle was binned into
+    std::uint64_t blocksShaded = 0;     // runs of the fragment program
+    std::uint64_t quadsShaded = 0;      // 2x2 pixels with at least one live pixel
+    std::uint64_t pixelsShaded = 0;     // live pixels: lanes whose result counted
+    std::uint64_t pixelsColorless = 0;  // of those: drawn without the fragment program, as no target keeps its colours
+    std::uint64_t pixelsHidden = 0;     // covered, but failed the depth test before shading
+    std::uint64_t invalidColors = 0;    // pixels whose colour had a NaN or an infinity, which was replaced
+
+    // Of draws with a stencil test into a target that has a stencil: samples that passed it and that did not.
+    std::uint64_t stencilPassed = 0, stencilFailed = 0;
 
     FetchCounters fetches;
 
     Statistics& operator+=(const Statistics& other);
+    Statistics& operator-=(const Statistics& other);
 };
 
 }  // namespace relief

@@ -296,6 +296,7 @@ private:
     Expected<std::vector<int>> roots() const;
     Expected<void> addMesh(const tinygltf::Node& node, const std::string& field, const glm::mat4& worldFromObject);
     void addCamera(const tinygltf::Node& node, const glm::dmat4& worldFromNode);
+    Expected<void> addLight(const tinygltf::Node& node, const std::string& field, const glm::dmat4& worldFromNode);
     Expected<std::optional<std::size_t>> meshOf(std::size_t mesh, std::size_t primitive);
     Expected<Attributes> attributesOf(const tinygltf::Primitive& primitive, const std::string& field);
     Expected<std::vector<std::uint32_t>> indicesOf(const tinygltf::Primitive& primitive, const std::string& field,
@@ -398,6 +399,7 @@ Expected<void> Reader::walk()
         }
         const glm::dmat4 world = leftHanded(worldFromNode);
         if (node.camera >= 0) addCamera(node, world);
+        if (const Expected<void> added = addLight(node, field, world); !added) return added;
         if (const Expected<void> added = addMesh(node, field, glm::mat4(world)); !added) return added;
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
             open.push_back({*child, worldFromNode});
@@ -454,6 +456,108 @@ void Reader::addCamera(const tinygltf::Node& node, const glm::dmat4& worldFromNo
                     .fieldOfView = floatOf(degrees),
                     .nearPlane = near,
                     .farPlane = floatOf(its.zfar) > near ? floatOf(its.zfar) : HUGE_VALF};
+}
+
+// --- lights ---
+
+// Where to look for a light, and which of the file's it is, if any.
+constexpr const char* kLights = "KHR_lights_punctual";
+
+// A number of a light: `usual` where there is none, and an error where it is no number or not within its bounds.
+Expected<double> lightNumber(const tinygltf::Value& object, const char* name, const std::string& field, double usual,
+                             double low, double high, const char* bounds)
+{
+    if (!object.Has(name)) return usual;
+    const tinygltf::Value& value = object.Get(name);
+    const double number = value.IsNumber() ? value.GetNumberAsDouble() : std::nan("");
+    if (number >= low && number <= high) return number;
+    return fail(field + "." + name + ": is not " + bounds + "; correct it");
+}
+
+// Its numbers, without its place.
+Expected<SceneLight> lightOf(const tinygltf::Value& its, const std::string& field)
+{
+    if (!its.IsObject()) return fail(field + ": is no light; export the file again");
+    SceneLight made = {};
+    const std::string type = its.Has("type") && its.Get("type").IsString() ? its.Get("type").Get<std::string>() : "";
+    if (type == "point") {
+        made.kind = SceneLight::Kind::point;
+    } else if (type == "spot") {
+        made.kind = SceneLight::Kind::spot;
+    } else if (type != "directional") {
+        return fail(field + ".type: is not directional, point or spot; correct it");
+    }
+    made.color = glm::vec3(1.0f);
+    if (its.Has("color")) {
+        const tinygltf::Value& color = its.Get("color");
+        for (int i = 0; i < 3; ++i) {
+            const bool isNumber = color.IsArray() && color.Size() == 3 && color.Get(i).IsNumber();
+            const double part = isNumber ? color.Get(i).GetNumberAsDouble() : -1.0;
+            if (!(part >= 0.0 && part <= 1.0))
+                return fail(field + ".color: is not three numbers of 0 to 1; correct it");
+            made.color[i] = floatOf(part);
+        }
+    }
+    const auto number = [](const tinygltf::Value& object, const std::string& of, const char* name, double usual,
+                           double low, double high, const char* bounds, float& to) {
+        return lightNumber(object, name, of, usual, low, high, bounds).map([&to](double n) {
+            to = static_cast<float>(n);
+        });
+    };
+    const Expected<void> read =
+        number(its, field, "intensity", 1.0, 0.0, FLT_MAX, "a number of at least 0", made.intensity).and_then([&] {
+            return number(its, field, "range", HUGE_VAL, FLT_MIN, FLT_MAX, "a number above 0", made.range);
+        });
+    if (!read) return tl::unexpected(read.error());
+    if (made.kind != SceneLight::Kind::spot) return made;
+    const std::string ofSpot = field + ".spot";
+    // tinygltf has refused a spot without this object, and leaves out one that is empty.
+    const tinygltf::Value& spot = its.Get("spot");
+    if (its.Has("spot") && !spot.IsObject()) return fail(ofSpot + ": is no object; export the file again");
+    constexpr double kQuarter = std::numbers::pi / 2;
+    float inner = 0.0f, outer = 0.0f;
+    const Expected<void> angles =
+        number(spot, ofSpot, "innerConeAngle", 0.0, 0.0, kQuarter, "an angle of 0 to pi / 2", inner).and_then([&] {
+            return number(spot, ofSpot, "outerConeAngle", kQuarter / 2, 0.0, kQuarter + 1e-6, "an angle of 0 to pi / 2",
+                          outer);
+        });
+    if (!angles) return tl::unexpected(angles.error());
+    if (!(inner < outer)) return fail(ofSpot + ".innerConeAngle: is not less than outerConeAngle; correct it");
+    made.cosInner = cos(Float(inner))[0];  // the engine's own, the same on every machine
+    made.cosOuter = std::max(cos(Float(outer))[0], 0.0f);
+    return made;
+}
+
+// A light shines along -z of its node, as a camera looks; worldFromNode is left-handed.
+Expected<void> Reader::addLight(const tinygltf::Node& node, const std::string& field, const glm::dmat4& worldFromNode)
+{
+    const auto its = node.extensions.find(kLights);
+    if (its == node.extensions.end()) return {};
+    const std::string user = field + ".extensions." + kLights + ".light";
+    const auto list = file.extensions.find(kLights);
+    const bool hasList = list != file.extensions.end() && list->second.IsObject() && list->second.Has("lights") &&
+                         list->second.Get("lights").IsArray();
+    const std::size_t count = hasList ? list->second.Get("lights").Size() : 0;
+    const double index = numberIn(its->second, "light", -1.0);
+    if (!(index >= 0.0 && index < static_cast<double>(count)) || index != std::floor(index)) {
+        return failMissing(user, "light", static_cast<int>(std::clamp(index, -1.0, 1e9)), count);
+    }
+    const auto number = static_cast<std::size_t>(index);
+    const std::string light = std::string("extensions.") + kLights + "." + element("lights", number);
+    Expected<SceneLight> made = lightOf(list->second.Get("lights").Get(static_cast<int>(number)), light);
+    if (!made) return tl::unexpected(made.error());
+    if (scene.lights.size() >= kMaxSceneLights) {
+        return fail(user + ": the scene has more than " + std::to_string(kMaxSceneLights) + " lights; simplify it");
+    }
+    const glm::dvec3 forward = -glm::dvec3(worldFromNode[2]);
+    const bool directed = glm::dot(forward, forward) > 0.0;
+    if (!directed && made->kind != SceneLight::Kind::point) {
+        return fail(field + ": its matrix leaves its light no direction; repair the file");
+    }
+    made->position = glm::vec3(worldFromNode[3]);
+    made->forward = directed ? glm::vec3(glm::normalize(forward)) : glm::vec3(0, 0, 1);
+    scene.lights.push_back(*made);
+    return {};
 }
 
 // --- primitives ---

@@ -14,7 +14,8 @@ inline constexpr std::size_t kMaxReadVertices = std::size_t{1} << 26;   // of al
 inline constexpr std::size_t kMaxSceneIndices = std::size_t{1} << 26;   // of all meshes
 inline constexpr std::size_t kMaxSceneInstances = std::size_t{1} << 17;
 inline constexpr std::size_t kMaxDrawnIndices = std::size_t{1} << 30;  // of all instances
-inline constexpr std::size_t kMaxSceneTexels = std::size_t{1} << 28;   // of all textures
+inline constexpr std::size_t kMaxSceneLights = 256;
+inline constexpr std::size_t kMaxSceneTexels = std::size_t{1} << 28;  // of all textures
 
 // Reads the file's default scene, or its first, or, where it has none, all nodes without a parent.
 //
@@ -27,12 +28,13 @@ inline constexpr std::size_t kMaxSceneTexels = std::size_t{1} << 28;   // of all
 //   combination of picture and colour space. Magnification by nearest texels counts for minification too: sampler2D has
 //   one filter.
 // - Understood extensions: KHR_texture_transform, KHR_materials_unlit, KHR_materials_emissive_strength,
-//   KHR_mesh_quantization. Others that are used get a note. Lights, orthographic cameras, animations, skins and morph
-//   targets are left out, with a note: meshes stand as they were bound.
+//   KHR_mesh_quantization, KHR_lights_punctual. Others that are used get a note. Orthographic cameras, animations,
+//   skins and morph targets are left out, with a note: meshes stand as they were bound.
 //
 // An error of one line, with the file's name and the field (accessors[3].bufferView), when a file cannot be read, is no
-// glTF 2.0, requires another extension, names something that is not there, holds numbers that are not finite, has nodes
-// that form a cycle or have two parents, exceeds a limit, or has nothing to draw. `path` is UTF-8.
+// glTF 2.0, requires another extension, names something that is not there, holds numbers that are not finite, has a
+// light whose numbers are out of their range, has nodes that form a cycle or have two parents, exceeds a limit, or has
+// nothing to draw. `path` is UTF-8.
 Expected<SceneFile> readGltf(const std::string& path);
 
 }  // namespace relief::inline RELIEF_WIDTH

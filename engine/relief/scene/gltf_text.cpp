@@ -27,8 +27,9 @@ constexpr std::array<std::string_view, 20> kIntegers = {
     "componentType", "count",      "index",      "indices",    "material",   "mesh",    "mode",
     "nodes",         "sampler",    "scene",      "skin",       "source",     "texCoord"};
 
-constexpr std::array<std::string_view, 4> kUnderstood = {"KHR_texture_transform", "KHR_materials_unlit",
-                                                         "KHR_materials_emissive_strength", "KHR_mesh_quantization"};
+constexpr std::array<std::string_view, 5> kUnderstood = {"KHR_texture_transform", "KHR_materials_unlit",
+                                                         "KHR_materials_emissive_strength", "KHR_mesh_quantization",
+                                                         "KHR_lights_punctual"};
 
 // What is a list in glTF 2.0 and an object in 1.0.
 constexpr std::array<std::string_view, 4> kLists = {"accessors", "buffers", "meshes", "nodes"};

@@ -71,6 +71,24 @@ struct SceneCamera
     float farPlane;  // may be infinite
 };
 
+// KHR_lights_punctual. Nothing of a light is behind its range, which may be infinite.
+struct SceneLight
+{
+    enum class Kind
+    {
+        directional,
+        point,
+        spot
+    };
+
+    Kind kind;
+    glm::vec3 color;              // linear, 0 ... 1
+    float intensity;              // lux of a directional light, candela of the others; at least 0
+    glm::vec3 position, forward;  // world space; where it shines to, a unit vector, not of points
+    float range;
+    float cosInner, cosOuter;  // of a spot's angles from its middle: the outer one is less
+};
+
 struct SceneFile
 {
     // Each with normals, uvs, the stream TEXCOORD1 and colours; with tangents where its material has a normal map.
@@ -79,6 +97,7 @@ struct SceneFile
     std::vector<SceneInstance> instances;                  // in the order of the file's nodes, parents first
     std::vector<std::shared_ptr<const Texture>> textures;  // that the materials' samplers name
     std::optional<SceneCamera> camera;                     // the first one with perspective
+    std::vector<SceneLight> lights;                        // in the order of the nodes that they belong to
     Bounds bounds;                                         // of all instances, in world space
 
     std::vector<std::string> notes;  // what the file has and this has not, one line each
