@@ -297,7 +297,8 @@ void addReportOptions(CLI::App& command, ReportOptions& options)
                     "triplanar: what each way to map normals costs, beside its error; performance: how cost grows "
                     "with pixels, triangles, threads, lights and textures; error: every approximation's error "
                     "beside its run time; stability: what extreme inputs do, measured against bounds; leave-out: "
-                    "what each stage did not need, and what that saved; build: what compiling costs")
+                    "what each stage did not need, and what that saved; build: what compiling costs; exercises: what "
+                    "is said of wrong answers")
         ->required();
     command.add_option("--output", options.output, "The folder")->capture_default_str()->type_name("DIR");
     command
@@ -307,7 +308,7 @@ void addReportOptions(CLI::App& command, ReportOptions& options)
     command
         .add_option("--rounds", options.rounds,
                     "How often each stage or scene has its turn; 31 for triplanar, 5 for performance unless told "
-                    "otherwise; of build: how often each file is compiled")
+                    "otherwise; of build: how often each file is compiled; of exercises: how many wrong answers")
         ->check(CLI::Range(1, 100000));
     command
         .add_option("--part", options.part,

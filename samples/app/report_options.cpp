@@ -11,6 +11,7 @@ constexpr ReportKind kReports[] = {
     {"stability", "", 0, "--only --tests"},
     {"leave-out", "480x270", 0, "--size --counted-program --switchable-program"},
     {"build", "", 1, "--rounds --only --build"},
+    {"exercises", "", 300, "--rounds"},
 };
 
 }  // namespace

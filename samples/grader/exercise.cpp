@@ -5,7 +5,7 @@
 #include <regex>
 #include <sstream>
 
-#include "live/toolchain.h"
+#include "grader/goal.h"
 #include "live/watch.h"
 #include "relief/path.h"
 
@@ -354,6 +354,21 @@ std::string exerciseIdOf(const std::string& path, const std::string& text)
     const std::string first = text.substr(0, text.find('\n')), stem = utf8Of(pathOf(path).stem());
     if (std::regex_search(first, m, head)) return m[1];
     return std::regex_match(stem, m, name) ? m[1].str() : "";
+}
+
+std::optional<live::StageSource> goalOf(const live::StageSource& source)
+{
+    if (!source.id.empty()) return std::nullopt;
+    const std::string id = exerciseIdOf(source.path, live::readText(source.path).value_or(""));
+    if (id.empty()) return std::nullopt;
+    const Expected<std::vector<Exercise>> all = allExercises();
+    if (!all) return std::nullopt;
+    const Expected<const Exercise*> found = findExercise(*all, id);
+    if (!found) return std::nullopt;
+    live::StageSource answer = source;
+    answer.path = (*found)->folder + "/answer/answer.cpp";
+    answer.stem = "goal";
+    return answer;
 }
 
 }  // namespace relief::samples::grader
