@@ -107,7 +107,7 @@ void compareWithAll(const Exercise& exercise, const Catalogue& catalogue, const 
     const std::string howNear =
         text("%.2f", found.nearest) + " codes of 255 away on average, the next one " + text("%.2f", found.next);
     const bool isMistake = found.entry->name != "answer" && found.entry->name != "start";
-    if (isMistake && found.nearest <= kNear && found.nearest * kMargin <= found.next) {
+    if (isMistake && found.nearest <= kNear && found.nearest * kMargin <= found.next && found.next >= kTie) {
         diagnosis.kind = Kind::near;
         diagnosis.sentence =
             withSee(joined(words.sentence, "is nearest to what that gives, of all known mistakes (" + howNear + ")."),

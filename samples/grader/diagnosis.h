@@ -37,8 +37,9 @@ const char* wordOf(Diagnosis::Kind kind);
 // As far as pictures may be apart that are called solved.
 inline constexpr int kCodes = 2;
 
-// A mistake is only named where its picture is that near, and that much nearer than any other entry's.
-inline constexpr double kNear = 2.0, kMargin = 4.0;
+// A mistake is only named where its picture is that near, and that much nearer than any other entry's; and where the
+// next one is farther than kTie, since small pictures of two mistakes can be the same.
+inline constexpr double kNear = 2.0, kMargin = 4.0, kTie = 0.1;
 
 Diagnosis diagnose(const Exercise& exercise, const Catalogue& catalogue, const Framebuffer& picture);
 

@@ -79,7 +79,8 @@ std::string judged(const Trial& trial)
     if (d.isSolved()) return "the same";
     if (d.kind == Diagnosis::Kind::exact || d.kind == Diagnosis::Kind::start) return "right, bit for bit";
     if (d.kind == Diagnosis::Kind::near) return touching(d.entry) ? "right, near" : "wrong";
-    return touching("") ? "missed" : "rightly unknown";
+    if (touching(d.entry)) return "missed";
+    return touching("") ? "unknown, another change there" : "unknown, no mistake there";
 }
 
 void runOne(Trial& trial, const std::map<std::string, Catalogue>& catalogues, const std::string& folder, int number)
@@ -117,52 +118,57 @@ std::string rowOf(const Trial& t)
            t.result + " | " + t.diagnosis.entry + " | " + apart + " |\n";
 }
 
-std::string percent(std::size_t part, std::size_t whole)
+// The share of each result, with those that are right first.
+std::string countsOf(const std::vector<Trial>& trials)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%zu (%.1f %%)", part,
-                  100.0 * static_cast<double>(part) / static_cast<double>(whole));
+    std::map<std::string, std::size_t> counts;
+    for (const Trial& t : trials) ++counts[t.result];
+    const std::size_t whole = trials.size() - counts["no picture"] - counts["the same"];
+    std::string text = std::to_string(trials.size()) + " changes were tried. " + std::to_string(counts["no picture"]) +
+                       " do not compile or never end, and " + std::to_string(counts["the same"]) +
+                       " give the right picture. The others are wrong answers.\n\n| of " + std::to_string(whole) +
+                       " wrong answers | | |\n|---|---|---|\n";
+    const auto row = [&](const std::string& meaning, std::size_t count) {
+        char line[64];
+        std::snprintf(line, sizeof line, " | %zu | %.1f %% |\n", count,
+                      100.0 * static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(1, whole)));
+        text += "| " + meaning + line;
+    };
+    row("right: named, bit for bit", counts["right, bit for bit"]);
+    row("right: named by the nearest picture, and that mistake changes the same place", counts["right, near"]);
+    row("right: unknown, and no known mistake changes that place", counts["unknown, no mistake there"]);
+    row("right: unknown, and the nearest picture is not of a mistake at that place",
+        counts["unknown, another change there"]);
+    row("missed: unknown, although the nearest picture is of a mistake at that place", counts["missed"]);
+    row("wrong: another mistake was named", counts["wrong"]);
+    row("**right, together**", whole - counts["missed"] - counts["wrong"]);
     return text;
 }
 
 std::string pageOf(const std::vector<Trial>& trials, const ReportOptions& options)
 {
-    std::map<std::string, std::size_t> counts;
     std::string rows;
-    std::size_t wrongAnswers = 0;
     for (const Trial& t : trials) {
-        ++counts[t.result];
-        if (!isWrongAnswer(t)) continue;
-        ++wrongAnswers;
-        rows += rowOf(t);
+        if (isWrongAnswer(t)) rows += rowOf(t);
     }
-    const std::size_t exact = counts["right, bit for bit"], near = counts["right, near"],
-                      unknown = counts["rightly unknown"];
-    std::string text = reportHead("Exercises: what is said of wrong answers", options);
-    text +=
-        "\nA program that does not know the catalogue makes one small change at random to the answer of an exercise: "
-        "another "
-        "sign, number, name, swizzle or function, or a line less. Each such answer is compiled, drawn and diagnosed as "
-        "`./relief check-exercise` does it.\n\n" +
-        std::to_string(trials.size()) + " changes were tried. " + std::to_string(counts["no picture"]) +
-        " do not compile or never end, and " + std::to_string(counts["the same"]) +
-        " give the right picture. The others are wrong answers:\n\n| of " + std::to_string(wrongAnswers) +
-        " wrong answers | |\n|---|---|\n| named, bit for bit | " + percent(exact, wrongAnswers) +
-        " |\n| named, by the nearest picture, and that mistake changes the same place | " +
-        percent(near, wrongAnswers) + " |\n| \"unknown\", and no known mistake changes that place | " +
-        percent(unknown, wrongAnswers) + " |\n| right, together | " + percent(exact + near + unknown, wrongAnswers) +
-        " |\n| \"unknown\", although a known mistake changes that place | " + percent(counts["missed"], wrongAnswers) +
-        " |\n| wrong: another mistake was named | " + percent(counts["wrong"], wrongAnswers) + " |\n";
     char bounds[256];
     std::snprintf(
         bounds, sizeof bounds,
-        "\nA mistake is named by its nearest picture if that is at most %.1f codes away on average, and the next "
-        "one at least %.1f times as far. What is \"unknown\" is still shown the nearest picture, with a warning.\n",
+        "\nA mistake is named by its nearest picture if that is at most %.1f codes of 255 away on average, and the "
+        "next one at least %.1f times as far.",
         kNear, kMargin);
-    return text + bounds +
-           "\n## All of them\n\nThe last two columns: how far the nearest known picture is away, in codes of 255 on "
-           "average, "
-           "and the next one.\n\n| exercise | change | from | to | judged | nearest known | its distance | the next |\n"
+    return reportHead("Exercises: what is said of wrong answers", options) +
+           "\nA program that does not know the catalogue makes one small change at random to the answer of an "
+           "exercise: "
+           "another sign, number, name, swizzle or function, or a line less. Each such answer is compiled, drawn and "
+           "diagnosed as `./relief check-exercise` does it.\n\n" +
+           countsOf(trials) + bounds +
+           " What is unknown is shown the nearest picture as well, with the words that it says little.\n\n## All of "
+           "them\n\n"
+           "The last two columns: how far the nearest known picture is away, in codes of 255 on average, and the next "
+           "one. "
+           "Both are 0 where the picture is known bit for bit.\n\n"
+           "| exercise | change | from | to | judged | nearest known | its distance | the next |\n"
            "|---|---|---|---|---|---|---|---|\n" +
            rows;
 }

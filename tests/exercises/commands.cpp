@@ -105,14 +105,15 @@ TEST_CASE("exercises: a word that is none is one line and exit code 2")
 {
     const TemporaryFolder folder;
     folder.write("mine.cpp", "// nothing\n");
-    for (const auto& [words, sentence] : {std::pair("exercise 9.99z", "there is no exercise '9.99z'"),
-                                          std::pair("check-exercise 1.08a", "name your file"),
-                                          std::pair("check-exercise gone.cpp", "there is no such file"),
-                                          std::pair("check-exercise mine.cpp", "does not say which exercise")}) {
-        CAPTURE(words);
-        const Outcome outcome = runCommand(folder, words);
+    const std::pair<const char*, const char*> all[] = {{"exercise 9.99z", "there is no exercise '9.99z'"},
+                                                       {"check-exercise 1.08a", "name your file"},
+                                                       {"check-exercise gone.cpp", "there is no such file"},
+                                                       {"check-exercise mine.cpp", "does not say which exercise"}};
+    for (const auto& refused : all) {
+        CAPTURE(refused.first);
+        const Outcome outcome = runCommand(folder, refused.first);
         CHECK(outcome.code == 2);
-        CHECK(has(outcome.err, sentence));
+        CHECK(has(outcome.err, refused.second));
         CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
     }
 }
