@@ -43,12 +43,13 @@ Words wordsOf(const Exercise& exercise, const std::string& entry)
     const std::string see = first.see.empty() || first.see == second.see
                                 ? second.see
                                 : first.see + (second.see.empty() ? "" : " ") + second.see;
-    return {"Two things: " + first.sentence + ". " + second.sentence, see};
+    return {"Two things: " + first.sentence + (first.sentence.ends_with("?") ? " " : ". ") + second.sentence, see};
 }
 
-// "Your slope has the wrong sign: your picture ...", but no second colon.
+// "Your slope has the wrong sign: your picture ...", but no second colon, and no full stop after a question.
 std::string joined(const std::string& sentence, const std::string& picture)
 {
+    if (sentence.ends_with("?")) return sentence + " Your picture " + picture;
     return sentence.find(": ") == std::string::npos ? sentence + ": your picture " + picture
                                                     : sentence + ". Your picture " + picture;
 }

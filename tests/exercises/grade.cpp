@@ -1,10 +1,8 @@
 // `grade`: a class's files, and what hostile ones come to. Each of these tries something that would harm or cheat if
 // the sandbox had a hole.
 #include <algorithm>
-#include <csignal>
-#include <cstdio>
+#include <cstdlib>
 #include <fstream>
-#include <thread>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -19,11 +17,14 @@ using namespace relief;
 using namespace relief::samples::grader;
 namespace fs = std::filesystem;
 
+// Where there is none, these tests fail, unless they are to be left out.
 bool hasSandbox()
 {
     const Expected<void> checked = checkSandbox();
-    if (!checked) MESSAGE("no sandbox here: " << checked.error().message);
-    return checked.has_value();
+    if (!checked && std::getenv("RELIEF_WITHOUT_SANDBOX") != nullptr) return false;
+    REQUIRE_MESSAGE(checked.has_value(),
+                    (checked ? "" : checked.error().message + "; or set RELIEF_WITHOUT_SANDBOX=1"));
+    return true;
 }
 
 const Exercise& alongV()
