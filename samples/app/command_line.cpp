@@ -127,6 +127,30 @@ void addCheckCommands(CLI::App& check, CheckOptions& options)
     command->add_option("--goldens", options.goldens, "The folder of the goldens, where the tests ran elsewhere");
 }
 
+void addGradeOptions(CLI::App& command, GradeOptions& options)
+{
+    command
+        .add_option(
+            "folder", options.folder,
+            "Where the files are: a folder for each learner, or files that are named after learner and exercise, "
+            "ada_1.08a.cpp")
+        ->required();
+    command
+        .add_option("--output", options.output,
+                    "The folder for index.html, grades.json and grades.csv; default: the folder's name and -grades")
+        ->type_name("DIR");
+    command.add_option("--threads", options.threads, "So many files at once; 0: one per processor")
+        ->check(CLI::Range(0, 256));
+    command.add_option("--seconds", options.seconds, "Of a processor for each file; three times as many by the clock")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
+    command.add_option("--megabytes", options.megabytes, "Of memory for each file")
+        ->check(CLI::Range(256, 1 << 20))
+        ->capture_default_str();
+    command.add_flag("--without-sandbox", options.withoutSandbox,
+                     "Runs files with your own rights, and within limits: only if you trust every one");
+}
+
 void addCompilerOption(CLI::App& command, std::string& compiler)
 {
     command.add_option("--compiler", compiler, "That compiles stages while the program runs; default: the fastest")
@@ -292,7 +316,8 @@ void addReportOptions(CLI::App& command, ReportOptions& options)
                     "triplanar: what each way to map normals costs, beside its error; performance: how cost grows "
                     "with pixels, triangles, threads, lights and textures; error: every approximation's error "
                     "beside its run time; stability: what extreme inputs do, measured against bounds; leave-out: "
-                    "what each stage did not need, and what that saved; build: what compiling costs")
+                    "what each stage did not need, and what that saved; build: what compiling costs; exercises: what "
+                    "is said of wrong answers")
         ->required();
     command.add_option("--output", options.output, "The folder")->capture_default_str()->type_name("DIR");
     command
@@ -302,7 +327,7 @@ void addReportOptions(CLI::App& command, ReportOptions& options)
     command
         .add_option("--rounds", options.rounds,
                     "How often each stage or scene has its turn; 31 for triplanar, 5 for performance unless told "
-                    "otherwise; of build: how often each file is compiled")
+                    "otherwise; of build: how often each file is compiled; of exercises: how many wrong answers")
         ->check(CLI::Range(1, 100000));
     command
         .add_option("--part", options.part,
@@ -378,6 +403,14 @@ int runProgram(int argc, char** argv, const Program& program)
     // Runs what the program has for a command.
     const auto run = [&result](const char* name, auto function, const auto&... arguments) {
         result = function != nullptr ? function(arguments...) : elsewhere(name);
+    };
+
+    int code = 0;
+    // The same for what has an exit code of its own.
+    const auto judge = [&](const char* name, auto function, const auto&... arguments) {
+        const Expected<int> judged = function != nullptr ? function(arguments...) : elsewhere(name);
+        if (judged) code = *judged;
+        if (!judged) result = tl::unexpected(judged.error());
     };
 
     CLI::App* command = app.add_subcommand("list", "Shows all stages");
@@ -494,12 +527,33 @@ int runProgram(int argc, char** argv, const Program& program)
 
     command = app.add_subcommand("check", "Golden tests: compares pictures of any program, and reviews what differs");
     CheckOptions checkOptions;
-    int code = 0;
     addCheckCommands(*command, checkOptions);
+    command->callback([&] { judge("check", program.check, checkOptions); });
+
+    command = app.add_subcommand("exercise", "Lists the exercises, or writes one's file into the folder exercises");
+    std::string exerciseName, exerciseFile;
+    command->add_option("name", exerciseName, "An exercise, by number, such as 1.08a; without: lists all");
+    command->callback([&] { run("exercise", program.exercise, exerciseName); });
+
+    command = app.add_subcommand("check-exercise",
+                                 "Says whether your file solves its exercise, and if not, which mistake gives its "
+                                 "picture: exit code 0 solved, 1 not");
+    command->add_option("file", exerciseFile, "Your file")->required()->type_name("FILE.cpp");
+    command->callback([&] { judge("check-exercise", program.checkExercise, exerciseFile); });
+
+    command = app.add_subcommand("grade",
+                                 "Checks the files of a whole class, each in a sandbox: exit code 0 if all are "
+                                 "solved, 1 if not");
+    GradeOptions gradeOptions;
+    addGradeOptions(*command, gradeOptions);
+    command->callback([&] { judge("grade", program.grade, gradeOptions); });
+
+    command = app.add_subcommand("render-submission", "What grade starts in a sandbox")->group("");
+    std::string submission;
+    command->add_option("file", submission)->required();
     command->callback([&] {
-        const Expected<int> checked = program.check != nullptr ? program.check(checkOptions) : elsewhere("check");
-        if (checked) code = *checked;
-        if (!checked) result = tl::unexpected(checked.error());
+        if (program.renderSubmission != nullptr) program.renderSubmission(submission);
+        result = elsewhere("grade");
     });
 
     command = app.add_subcommand("doctor", "Says what a normal map or height map is, and what is wrong with it");

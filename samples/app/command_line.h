@@ -26,8 +26,12 @@ struct Program
     Expected<void> (*benchLive)(const LiveBenchOptions& options) = nullptr;
     Expected<void> (*benchPeer)(const PeerOptions& options) = nullptr;
     Expected<void> (*importEnvironment)(const ImportEnvironmentOptions& options) = nullptr;
-    Expected<int> (*check)(const CheckOptions& options) = nullptr;    // 1: pictures differ
-    Expected<int> (*doctor)(const DoctorOptions& options) = nullptr;  // 1: something is wrong with it
+    Expected<void> (*exercise)(const std::string& name) = nullptr;
+    Expected<int> (*checkExercise)(const std::string& file) = nullptr;  // 1: it is not solved
+    Expected<int> (*grade)(const GradeOptions& options) = nullptr;      // 1: one is not solved
+    void (*renderSubmission)(const std::string& file) = nullptr;        // does not return
+    Expected<int> (*check)(const CheckOptions& options) = nullptr;      // 1: pictures differ
+    Expected<int> (*doctor)(const DoctorOptions& options) = nullptr;    // 1: something is wrong with it
     const char* reportName = "";
     Expected<void> (*report)(const ReportOptions& options) = nullptr;  // of that name
 };

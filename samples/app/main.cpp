@@ -2,6 +2,8 @@
 // nobody who wants a picture builds them.
 #include "command_line.h"
 #include "commands.h"
+#include "grader/commands.h"
+#include "grader/submission.h"
 #include "trace/command.h"
 
 namespace {
@@ -39,5 +41,9 @@ int main(int argc, char** argv)
                        .signature = signature,
                        .explain = explain,
                        .trace = traceStage,
-                       .benchLive = measureSaves});
+                       .benchLive = measureSaves,
+                       .exercise = exercise,
+                       .checkExercise = checkExercise,
+                       .grade = grade,
+                       .renderSubmission = grader::renderSubmission});
 }

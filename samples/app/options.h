@@ -105,6 +105,16 @@ struct DoctorOptions
     bool json = false;
 };
 
+// Whose files `grade` runs, with which limits, and where it writes what came out.
+struct GradeOptions
+{
+    std::string folder, output;  // empty output: the folder's name and -grades
+    int threads = 0;             // so many files at once; 0: one per processor
+    double seconds = 10.0;       // of a processor, for each file
+    int megabytes = 3072;        // of addresses
+    bool withoutSandbox = false;
+};
+
 // What `report` measures, and where the files go.
 struct ReportOptions
 {

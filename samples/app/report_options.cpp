@@ -12,6 +12,7 @@ constexpr ReportKind kReports[] = {
     {"leave-out", "480x270", 0, "--size --counted-program --switchable-program"},
     {"build", "", 1, "--rounds --only --build"},
     {"doctor", "", 5, "--rounds"},
+    {"exercises", "", 300, "--rounds"},
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ void Viewer::setBeside(Beside its, std::string name)
     }
     kind = its;
     otherName = std::move(name);
-    if (kind != Beside::stage) second.reset();
+    if (kind != Beside::stage && kind != Beside::goal) second.reset();
     if (kind == Beside::nothing) other = {};
     changed();
 }
@@ -56,6 +56,17 @@ Expected<void> Viewer::compareWithGolden()
     wanted.height = other.height;
     setBeside(Beside::golden, "golden");
     ask();
+    return {};
+}
+
+// The answer's picture, drawn as this one is: from the same side, with the same properties.
+Expected<void> Viewer::compareWithGoal()
+{
+    if (!goal) return {};
+    const Expected<void> opened = compareWith(*goal);
+    if (!opened) return opened;
+    setBeside(Beside::goal, "goal");
+    setGrid(true);
     return {};
 }
 
@@ -96,6 +107,14 @@ void Viewer::setDivider(float fraction)
 void Viewer::setDifference(bool shown)
 {
     differenceShown = shown;
+    gridShown = false;
+    changed();
+}
+
+void Viewer::setGrid(bool shown)
+{
+    gridShown = shown;
+    differenceShown = false;
     changed();
 }
 
@@ -121,9 +140,15 @@ const Pixels& Viewer::shown()
 {
     if (!canCompare()) return own;
     if (differenceShown) return difference().picture;
-    if (composedIsOld) composed = beside(other, own, dividerColumn());
+    if (composedIsOld && gridShown) composed = grid(other, own, difference().picture);
+    if (composedIsOld && !gridShown) composed = beside(other, own, dividerColumn());
     composedIsOld = false;
     return composed;
+}
+
+const Pixels& Viewer::pointable()
+{
+    return showsGrid() ? own : shown();
 }
 
 }  // namespace relief::samples

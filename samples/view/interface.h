@@ -99,6 +99,7 @@ private:
     void pictureArea();
     void handlePicture(float x, float y, float factor);
     void drawComparison(float x, float y, float width, float height) const;
+    void labelGrid(float x, float y, float width, float height) const;
     void magnify(float mouseX, float mouseY, Viewer::Point pixel) const;
     void problem(float x, float y, float width, float height);
     void diagnostic(const live::Diagnostic& diagnostic, bool first) const;

@@ -56,10 +56,12 @@ void Interface::pictureArea()
     ImGui::Image(picture.texture(), ImVec2(width, height));
     place("picture");
     handlePicture(x, y, factor);
-    if (viewer.canCompare() && !viewer.showsDifference()) drawComparison(x, y, width, height);
+    if (viewer.showsDivider()) drawComparison(x, y, width, height);
+    if (viewer.showsGrid()) labelGrid(x, y, width, height);
     if (viewer.kept) {
+        const float column = viewer.showsGrid() ? x + width / 2.0f : x;  // of three, this stage's own
         const auto at = [factor](float from, int pixel) { return from + (static_cast<float>(pixel) + 0.5f) * factor; };
-        const ImVec2 middle(at(x, viewer.kept->x), at(y, viewer.kept->y));
+        const ImVec2 middle(at(column, viewer.kept->x), at(y, viewer.kept->y));
         ImDrawList& list = *ImGui::GetWindowDrawList();
         list.AddCircle(middle, points(6.0f), 0xff000000, 0, points(3.0f));
         list.AddCircle(middle, points(6.0f), kOrange, 0, points(1.5f));
@@ -78,12 +80,13 @@ void Interface::handlePicture(float x, float y, float factor)
         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
     const float line = x + static_cast<float>(viewer.dividerColumn()) * factor;
-    const bool divided = viewer.canCompare() && !viewer.showsDifference();
-    const bool overLine = divided && hovered && std::abs(io.MousePos.x - line) < points(7.0f);
+    const bool overLine = viewer.showsDivider() && hovered && std::abs(io.MousePos.x - line) < points(7.0f);
     if (hovered) {
         const auto column = static_cast<int>((io.MousePos.x - x) / factor);
         const auto row = static_cast<int>((io.MousePos.y - y) / factor);
         pointed = Viewer::Point{std::clamp(column, 0, shown.width - 1), std::clamp(row, 0, shown.height - 1)};
+        const Pixels& part = viewer.pointable();
+        *pointed = {pointed->x % part.width, pointed->y % part.height};
     }
     if (overLine || draggingDivider) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (ImGui::IsItemActivated()) draggingDivider = overLine && !magnifying;
@@ -126,10 +129,20 @@ void Interface::drawComparison(float x, float y, float width, float height) cons
     list.PopClipRect();
 }
 
+void Interface::labelGrid(float x, float y, float width, float height) const
+{
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float pad = points(6.0f), right = x + width / 2.0f, below = y + height / 2.0f;
+    label(list, ImVec2(x + pad, y + pad), viewer.besideName(), pad, false);
+    label(list, ImVec2(right + pad, y + pad), "yours", pad, false);
+    label(list, ImVec2(x + pad, below + pad), "difference, " + std::to_string(viewer.enlargement()) + " times", pad,
+          false);
+}
+
 // The pixels about one, each as a square, with the middle one's values.
 void Interface::magnify(float mouseX, float mouseY, Viewer::Point pixel) const
 {
-    const Pixels& shown = viewer.shown();
+    const Pixels& shown = viewer.pointable();
     const auto cell = static_cast<float>(magnification);
     const int reach = 132 / magnification;
     const float side = cell * static_cast<float>(2 * reach + 1), pad = points(6.0f);

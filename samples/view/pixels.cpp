@@ -64,6 +64,23 @@ Pixels beside(const Pixels& left, const Pixels& right, int column)
     return both;
 }
 
+Pixels grid(const Pixels& first, const Pixels& second, const Pixels& third)
+{
+    const auto width = static_cast<std::size_t>(first.width), height = static_cast<std::size_t>(first.height);
+    Pixels all{2 * first.width, 2 * first.height, std::vector<std::uint32_t>(4 * width * height, 0xff000000u)};
+    const auto put = [&](const Pixels& part, std::size_t column, std::size_t row) {
+        for (std::size_t y = 0; y < height; ++y) {
+            const auto from = part.colors.begin() + static_cast<std::ptrdiff_t>(y * width);
+            const std::size_t to = (y + row * height) * 2 * width + column * width;
+            std::copy(from, from + first.width, all.colors.begin() + static_cast<std::ptrdiff_t>(to));
+        }
+    };
+    put(first, 0, 0);
+    put(second, 1, 0);
+    put(third, 0, 1);
+    return all;
+}
+
 Difference differenceOf(const Pixels& a, const Pixels& b, int enlargement)
 {
     Difference result;

@@ -29,6 +29,9 @@ Expected<void> writePixels(const std::string& path, const Pixels& picture);
 // `left` up to the column, `right` from there on. Both of the same size.
 Pixels beside(const Pixels& left, const Pixels& right, int column);
 
+// Four in one: `first` and `second` above, `third` below `first`, the rest black. All of the same size.
+Pixels grid(const Pixels& first, const Pixels& second, const Pixels& third);
+
 struct Difference
 {
     Pixels picture;            // of each channel, so many times enlarged, opaque

@@ -103,6 +103,7 @@ void Interface::chooseBeside()
     if (!viewer.session().source().id.empty() && choice("the golden picture (480x270)", "golden")) {
         report(viewer.compareWithGolden());
     }
+    if (viewer.hasGoal() && choice("the goal of this exercise", "goal")) report(viewer.compareWithGoal());
     for (std::size_t i = 0; i < viewer.snapshots.size(); ++i) {
         if (choice(viewer.snapshots[i].name, "snapshot." + std::to_string(i))) viewer.compareWithSnapshot(i);
     }
@@ -133,7 +134,11 @@ void Interface::comparison()
         viewer.change(look);
         return;
     }
-    if (ImGui::RadioButton("Divider", !viewer.showsDifference())) viewer.setDifference(false);
+    if (ImGui::RadioButton("All three", viewer.showsGrid())) viewer.setGrid(true);
+    place("compare.grid");
+    tooltip("The other picture, this one, and their difference");
+    ImGui::SameLine();
+    if (ImGui::RadioButton("Divider", viewer.showsDivider())) viewer.setDifference(false);
     place("compare.divider");
     tooltip("Drag the line in the picture");
     ImGui::SameLine();
@@ -186,7 +191,7 @@ void Interface::times()
 void Interface::status()
 {
     times();
-    const Pixels& shown = viewer.shown();
+    const Pixels& shown = viewer.pointable();
     const auto pixel = [&](const char* what, const Viewer::Point& p) {
         if (p.x >= shown.width || p.y >= shown.height) return;
         const std::uint32_t color = shown.at(p.x, p.y);

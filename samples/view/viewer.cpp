@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdio>
 
+#include "grader/goal.h"
 #include "picture_command.h"
 #include "prepare.h"
 #include "view/orbit.h"
@@ -60,7 +61,8 @@ Expected<void> Viewer::open(const live::StageSource& source)
     kept.reset();
     frameTimes.clear();
     refusal.clear();
-    return {};
+    goal = grader::goalOf(source);
+    return compareWithGoal();
 }
 
 void Viewer::step(int direction)
@@ -187,6 +189,10 @@ void Viewer::change(const live::Look& look)
 void Viewer::fitTo(int width, int height)
 {
     if (fit == Fit::fixed || width < 16 || height < 16) return;
+    if (showsGrid()) {
+        width /= 2;
+        height /= 2;
+    }
     Size size{fit, std::min(width, kMaxTargetSize), std::min(height, kMaxTargetSize)};
     if (fit == Fit::wide) {
         size.width = std::min(size.width, size.height * 16 / 9);

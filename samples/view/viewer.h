@@ -38,7 +38,8 @@ public:
         nothing,
         stage,
         golden,
-        snapshot
+        snapshot,
+        goal  // of an exercise, whose file this is
     };
     struct Snapshot
     {
@@ -85,6 +86,8 @@ public:
     Expected<void> compareWith(const live::StageSource& source);
     Expected<void> compareWithGolden();
     void compareWithSnapshot(std::size_t index);
+    bool hasGoal() const { return goal.has_value(); }
+    Expected<void> compareWithGoal();
     void compareWithStageBefore();  // and back: F2
     void compareWithNothing();
     void keepSnapshot();
@@ -94,14 +97,18 @@ public:
     bool besideHasProblem() const { return second && second->problem() != nullptr; }
     void setDivider(float fraction);  // of the width, from the left
     void setDifference(bool shown);
+    void setGrid(bool shown);         // the other one, this one and their difference, in a picture of twice the size
     void setEnlargement(int factor);  // of the difference
     float divider() const { return dividerAt; }
     bool showsDifference() const { return differenceShown; }
+    bool showsGrid() const { return gridShown && canCompare(); }
+    bool showsDivider() const { return canCompare() && !differenceShown && !gridShown; }
     int enlargement() const { return enlarged; }
     bool canCompare() const { return kind != Beside::nothing && !other.empty() && other.sameSize(own); }
 
     // --- what is to be seen ---
     const Pixels& picture() const { return own; }  // of the stage
+    const Pixels& pointable();                     // what the mouse points into: shown(), or of three this one
     const Pixels& shown();                         // with the one beside it
     const Difference& difference();                // where canCompare()
     int dividerColumn() const;
@@ -140,7 +147,8 @@ private:
     Pixels own, other, composed;
     Beside kind = Beside::nothing;
     std::string otherName;
-    bool differenceShown = false;
+    bool differenceShown = false, gridShown = false;
+    std::optional<live::StageSource> goal;
     int enlarged = 8;
     float dividerAt = 0.5f;
     Difference lastDifference;
