@@ -11,7 +11,7 @@ const build = path.join(root, 'build')
 
 const title = (file) => fs.readFileSync(path.join(root, file), 'utf8').match(/^# (.*)/m)[1]
 const startPages = fs.readdirSync(path.join(docs, 'start')).sort()
-const topics = ['change_something', 'exercises', 'look_inside', 'life_of_a_pixel', 'your_own_files', 'doctor', 'programs', 'porting', 'library', 'check',
+const topics = ['change_something', 'exercises', 'teaching', 'look_inside', 'life_of_a_pixel', 'your_own_files', 'doctor', 'programs', 'porting', 'library', 'check',
   'performance', 'machines', 'many_machines', 'triplanar_signs', 'glossary', 'terms', 'site']
 
 // A page is in the other language where its file is there.
