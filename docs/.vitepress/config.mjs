@@ -2,6 +2,7 @@
 import fs from 'node:fs'
 import path from 'node:path'
 import { defineConfig } from 'vitepress'
+import { exercises } from './exercises.mjs'
 import relief, { base, copyOf, linkedFiles, pageOf } from './markdown.mjs'
 import { tokenize } from './search.mjs'
 import { chapters, root } from './stages.mjs'
@@ -48,6 +49,8 @@ function copyFiles(out) {
   }
   for (const file of fs.readdirSync(path.join(build, 'web/book'))) copy(path.join(build, 'web/book', file), 'player/' + file)
   for (const file of fs.readdirSync(path.join(build, 'web/compiler'))) copy(path.join(build, 'web/compiler', file), 'player/compiler/' + file)
+  for (const { folder, goal } of exercises) copy(path.join(root, 'samples/exercises', folder, 'goal.png'), 'player/' + goal)
+  fs.writeFileSync(path.join(out, 'player/exercises.json'), JSON.stringify(exercises))
   copy(path.join(docs, '.vitepress/theme/icon.svg'), 'icon.svg')
   for (const file of ['worker.js', 'compiler.js', 'llvm.mjs']) copy(path.join(docs, '.vitepress/theme/player', file), 'player/' + file)
 }

@@ -66,7 +66,8 @@ void addDoctorOptions(CLI::App& command, DoctorOptions& options)
         .add_option("--height", options.heights,
                     "The heights that it was made of: which way its axes go, and how strong it is")
         ->type_name("FILE");
-    command.add_option("--mesh", options.mesh, "An OBJ or glTF file that it is for: whether its tangents go with its uv")
+    command
+        .add_option("--mesh", options.mesh, "An OBJ or glTF file that it is for: whether its tangents go with its uv")
         ->type_name("FILE");
     command.add_option("--fix", options.fix, "Writes the cured map")->type_name("OUT.png");
     command

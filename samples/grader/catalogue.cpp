@@ -144,8 +144,12 @@ Expected<void> writeCatalogue(const Exercise& exercise, const Catalogue& catalog
         small.insert(small.end(), entry.small.pixels.begin(), entry.small.pixels.end());
     }
     const int rows = kSmallHeight * static_cast<int>(catalogue.entries.size());
-    Expected<void> written = writeFileAtomically(exercise.folder + "/catalogue.txt",
-                                                 {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    const auto writeText = [&](const char* name, const std::string& of) {
+        return writeFileAtomically(exercise.folder + name,
+                                   {reinterpret_cast<const std::uint8_t*>(of.data()), of.size()});
+    };
+    Expected<void> written = writeText("/catalogue.txt", text);
+    if (written) written = writeText("/start.txt", learnersText(exercise, "exercises/" + exercise.stem + ".cpp"));
     if (written) written = writePng(exercise.folder + "/catalogue.png", kSmallWidth, rows, small);
     if (written) written = writePng(exercise.folder + "/goal.png", kWidth, kHeight, catalogue.goal.pixels);
     return written;

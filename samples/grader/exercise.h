@@ -4,6 +4,7 @@
 //     1.08a_along_v/answer/answer.cpp   a stage, whose lines between the marks are what the learner writes
 //     1.08a_along_v/answer/README.md    why
 //     1.08a_along_v/goal.png, catalogue.txt, catalogue.png    what update_exercises makes of it (catalogue.h)
+//     1.08a_along_v/start.txt           the learner's file, made by it, too: for the book's pages
 //
 // A mistake is a list of replacements within the lines of the gap: so the answer with a mistake in it is a text again,
 // which can be compiled and drawn.

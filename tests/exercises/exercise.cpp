@@ -141,6 +141,10 @@ TEST_CASE("exercise: all that there are can be read, and their stages, hints and
         CHECK(e.answer.starts_with("// " + e.id + " " + e.title + ":"));
         CHECK(std::filesystem::exists(e.folder + "/answer/README.md"));
         CHECK(std::filesystem::exists(e.folder + "/goal.png"));
+        std::ifstream start(e.folder + "/start.txt");
+        std::stringstream given;
+        given << start.rdbuf();
+        CHECK_MESSAGE(given.str() == learnersText(e, "exercises/" + e.stem + ".cpp"), "run update_exercises");
         CHECK(e.id.starts_with(e.stage));
         CHECK(std::count(e.answer.begin(), e.answer.end(), '\n') <= 120);
         const Expected<std::vector<Variant>> variants = variantsOf(e);

@@ -92,6 +92,13 @@ std::string firstDifference(const Stage& stage, const Framebuffer& wrong, const 
     return values + lifeOf(stage, x, y, options);
 }
 
+// What the golden says, where no frame has the right hash.
+std::string goldenOf(const Stage& stage)
+{
+    const Expected<void> picture = checkPicture(stage, false);
+    return picture ? "; the picture of 8 bits is still the golden" : "\n" + picture.error().message;
+}
+
 Expected<void> checkHash(const Stage& stage)
 {
     const Expected<std::string> expected = expectedHash(stage);
@@ -105,10 +112,8 @@ Expected<void> checkHash(const Stage& stage)
             if (!right) right = std::move(*target);
             continue;
         }
-        const std::string where = right
-                                      ? firstDifference(stage, *target, options, *right)
-                                      : "\nno frame of this build has it; `check_stage golden " + stage.id +
-                                            "` names the first pixel of the picture that differs, and the first value";
+        const std::string where = right ? firstDifference(stage, *target, options, *right)
+                                        : "\nno frame of this build has it" + goldenOf(stage);
         return fail(stage.id + ": hash " + hash + " with " + std::to_string(options.threads) + " threads, tiles of " +
                     std::to_string(options.tileSize) + " px and " + std::to_string(kLanes) + " lanes; should be " +
                     *expected + where);

@@ -8,6 +8,7 @@ import { createRequire } from 'node:module'
 import { fileURLToPath } from 'node:url'
 import { chromium } from 'playwright-core'
 import { serve } from '../serve.mjs'
+import { exercises } from '../exercises.mjs'
 import { stages } from '../stages.mjs'
 import { searches } from './searches.mjs'
 
@@ -253,6 +254,39 @@ const parts = {
     check(/12_bump_scale.cpp:\d+.*expected ';'/.test(await page.textContent('.editor .errors')), 'the error is not told')
     await page.close()
     return times.join(', ')
+  },
+
+  async exercise() {
+    const stage = stages.find((one) => one.id === '1.08')
+    const page = await pageOf(`${stage.folder}/${stage.stem}.html`)
+    await ready(page, 'hash')
+    await page.click('.player .edit')
+    await page.waitForSelector('.player[data-edited]', { timeout: 120000 })
+    const verdict = async (words) => {
+      await page.waitForFunction((words) => document.querySelector('.editor .verdict')?.textContent.includes(words), words, { timeout: 60000 })
+        .catch(async () => failures.push(`the exercise does not say "${words}": ${await page.locator('.editor .verdict').allTextContents()}`))
+    }
+    const fill = async (gap) => {
+      const { text } = exercises.find(({ id }) => id === '1.08a')
+      const filled = text.replace(/(\/\/ your turn.*\n)[\s\S]*?(\n *\/\/ end of your turn)/, (all, begin, end) => begin + gap + end)
+      check(filled !== text, 'the gap of 1.08a is not found')
+      await page.click('.cm-content')
+      await page.keyboard.press('Control+a')
+      await page.keyboard.insertText(filled)
+      await page.click('.editor .compile')
+    }
+    await page.selectOption('.editor .exercise select', '1.08a')
+    await verdict('as it is given')
+    const answer = fs.readFileSync(fileURLToPath(new URL('../../../samples/exercises/1.08a_along_v/answer/answer.cpp', import.meta.url)), 'utf8')
+      .match(/\/\/ your turn.*\n([\s\S]*?)\n *\/\/ end of your turn/)[1]
+    await fill(answer.replace('(v1 - v2)', '(v2 - v1)'))
+    await verdict('wrong sign')
+    await fill(answer)
+    await verdict('Solved, bit for bit.')
+    await fill(answer.replace('(v1 - v2)', '(v1 - v2) * 0.9f'))
+    await verdict('none of the')
+    await page.close()
+    return 'a mistake, the answer, and what is neither'
   },
 
   async share() {

@@ -11,6 +11,9 @@ const en = {
   frame: (ms, w, h) => `${w} × ${h} in ${ms} ms`, tried: 'shown above', edit: 'edit this shader',
   editorLabel: (file) => `Editor of ${file}`, compile: 'compile (Ctrl+Enter)', compiling: 'compiling …', restore: 'as it was', compiled: (ms) => `compiled in ${(ms / 1000).toFixed(1)} s`,
   errors: (n) => n === 1 ? 'one error' : `${n} errors`, loadingCompiler: (mb, of) => `loading the compiler: ${mb} of ${of} MB, once`,
+  exercise: 'exercise', noExercise: 'the stage itself', solved: 'Solved, bit for bit.', solvedTo: (n) => n === 1 ? 'Solved, to one code of 255.' : `Solved, to ${n} codes of 255.`,
+  asGiven: 'This is the file as it is given: fill the gap.', unknownMistake: (n) => `Not solved, and none of the ${n} known mistakes gives this picture, bit for bit.`,
+  bitForBit: 'Your picture is, bit for bit, what that gives.', openExercise: 'This exercise is open: many pictures are right. ./relief check-exercise measures what was asked for.',
   editorHint: 'This is the stage’s own file. It is compiled here, in your browser, by clang; nothing is sent anywhere.',
   edited: (hash, isGolden) => isGolden ? `Your shader gives the golden, bit for bit: hash ${hash}.` : `Your shader’s picture at rest has the hash ${hash}.`,
   endless: 'The shader did not end within 20 s and was stopped. Look for a loop that does not end.'
@@ -27,6 +30,9 @@ const zh = {
   frame: (ms, w, h) => `${w} × ${h}，${ms} 毫秒`, tried: '已在上方显示', edit: '编辑此着色器',
   editorLabel: (file) => `${file} 的编辑器`, compile: '编译（Ctrl+Enter）', compiling: '正在编译……', restore: '恢复原样', compiled: (ms) => `编译用时 ${(ms / 1000).toFixed(1)} 秒`,
   errors: (n) => `${n} 个错误`, loadingCompiler: (mb, of) => `正在载入编译器：${mb} / ${of} MB，只需一次`,
+  exercise: '练习', noExercise: '步骤本身', solved: '做对了，逐位相同。', solvedTo: (n) => `做对了，误差不超过 255 个编码值中的 ${n} 个。`,
+  asGiven: '这是给出的文件：请填上空缺。', unknownMistake: (n) => `还没有做对，而且 ${n} 种已知的错误里没有一种逐位给出这张图。`,
+  bitForBit: '你的图与此逐位相同。', openExercise: '这是开放的练习：对的图有许多。./relief check-exercise 会测量所要求的东西。',
   editorHint: '这是此步骤自己的源文件。它由 clang 在你的浏览器里编译，不会发送到任何地方。',
   edited: (hash, isGolden) => isGolden ? `你的着色器与基准图逐位相同：哈希 ${hash}。` : `你的着色器静止时画面的哈希是 ${hash}。`,
   endless: '着色器在 20 秒内没有结束，已被停止。请检查是否有不会结束的循环。'
