@@ -141,14 +141,16 @@ NormalField classify(const Channels& p, Diagnosis& d)
     d.kindEvidence = format("%.1f %% of z are above 0, the mean z is %.2f, lengths are %.3f from 1 on average",
                             100.0 * (1.0 - below), mean[2], lengths.meanError);
     // Colours have no direction in common; what only lost its length still leans to all sides, and up on average.
-    const bool isUpright = std::hypot(mean[0], mean[1]) < 0.15 && mean[2] > 0.3f && lengths.meanError < 0.6;
-    if (lengths.meanError > 0.25 && !isUpright) {
-        d.kind = Kind::noMap;
-    } else if (below < 0.3 && mean[2] > 0.35f) {
+    const bool isUpright =
+        below < 0.3 && mean[2] > 0.3f && std::hypot(mean[0], mean[1]) < 0.15 && lengths.meanError < 0.6;
+    if (isUpright || (below < 0.3 && mean[2] > 0.35f && lengths.meanError < 0.25)) {
         d.kind = Kind::tangentSpace;
-    } else {
-        d.kind = Kind::objectSpace;
+        return field;
     }
+    // Directions to all sides: only their lengths tell them from colours.
+    const bool isUnit = d.transfer == Transfer::none && lengths.meanError < 0.1;
+    d.kind = isUnit ? Kind::objectSpace : Kind::noMap;
+    d.transfer = Transfer::none;
     return field;
 }
 

@@ -91,6 +91,11 @@ std::string fromGoal(const Distance& distance)
 
 std::string solvedToCodes(const Distance& distance)
 {
+    if (distance.largest == 0) {
+        return "Solved: every code of every pixel is the goal's. The numbers behind them are rounded differently, as "
+               "in a "
+               "sum in another order.";
+    }
     return "Solved, to " + std::to_string(distance.largest) + (distance.largest == 1 ? " code" : " codes") +
            " of 255: " + std::to_string(distance.differing) + " pixels differ from the goal, by the most at (" +
            std::to_string(distance.x) + ", " + std::to_string(distance.y) +
@@ -117,8 +122,10 @@ void compareWithAll(const Exercise& exercise, const Catalogue& catalogue, const 
     }
     diagnosis.kind = Kind::unknown;
     diagnosis.sentence = "Not solved, and none of the " + std::to_string(catalogue.entries.size() - 2) +
-                         " known mistakes gives this picture. " + fromGoal(diagnosis.fromGoal) +
-                         ". The nearest known picture says little: \"" + words.sentence + "\" (" + howNear + ").";
+                         " known mistakes gives this picture. " + fromGoal(diagnosis.fromGoal) + ". ";
+    diagnosis.sentence += found.entry->name == "answer"
+                              ? "That is nearer than any known mistake: look at the difference in `./relief view`."
+                              : "The nearest known picture says little: \"" + words.sentence + "\" (" + howNear + ").";
 }
 
 double measureOf(const std::string& name, const Image8& picture)

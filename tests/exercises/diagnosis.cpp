@@ -70,6 +70,7 @@ TEST_CASE("diagnosis: two codes at most are solved, and the largest is named wit
     CHECK(one.fromGoal.largest == 1);
     CHECK(one.fromGoal.differing == kSmallWidth);
     CHECK(one.sentence.starts_with("Solved, to 1 code of 255: 48 pixels differ from the goal, by the most at (5, 5)."));
+    CHECK(setup.of(grey(0.5f, 0.50001f)).sentence.starts_with("Solved: every code of every pixel is the goal's."));
     CHECK(setup.of(grey(0.5f, srgbToLinear(190))).kind == Kind::nearly);
     CHECK(!setup.of(grey(0.5f, srgbToLinear(191))).isSolved());
 }
@@ -84,7 +85,9 @@ TEST_CASE("diagnosis: a mistake is named where it is near and the next one far, 
     const Diagnosis between = setup.of(grey(0.25f));
     CHECK(between.kind == Kind::unknown);
     CHECK(between.sentence.find("none of the 3 known mistakes") != std::string::npos);
-    CHECK(setup.of(grey(0.5f, 1.0f)).kind == Kind::unknown);  // near the goal is no mistake
+    const Diagnosis spot = setup.of(grey(0.5f, 1.0f));  // near the goal is no mistake
+    CHECK(spot.kind == Kind::unknown);
+    CHECK(spot.sentence.find("nearer than any known mistake") != std::string::npos);
 
     // Two entries whose small pictures are the same.
     Setup tied;
