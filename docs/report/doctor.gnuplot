@@ -13,6 +13,7 @@ set yrange [0:7.5]
 set ytics 1
 set grid ytics
 set bmargin 13
+set rmargin 26
 plot "doctor.csv" every ::2 using 0:3:xtic(1) with boxes linecolor rgb "#1b6ca8" notitle
 reset
 set datafile separator ","
