@@ -25,7 +25,8 @@ export const pageOf = (file) =>
         : file.startsWith('docs/') ? file.slice(5).replace(/(^|\/)README\.md$/, '$1index.md')
           : file.replace(/(^|\/)README\.md$/, '$1index.md')
 
-const isPage = (file) => file.endsWith('.md') && fs.existsSync(path.join(root, file))
+// What config.mjs leaves out is a file like any other.
+const isPage = (file) => file.endsWith('.md') && !/^(samples|tests)\//.test(file) && fs.existsSync(path.join(root, file))
 
 function resolved(env, href) {
   const [target, hash = ''] = href.split(/(?=#)/)
