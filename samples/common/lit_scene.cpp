@@ -400,7 +400,10 @@ Expected<void> LitScene::draw(Frame& frame, const View& from, const Surroundings
             draw(frame, instance, from, light);
         }
     }
-    std::stable_sort(blended.begin(), blended.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    // The farthest first; of equal ones in the file's order.
+    std::sort(blended.begin(), blended.end(), [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
     for (const auto& [distance, instance] : blended) draw(frame, *instance, from, light);
     frame.setFrontCounterClockwise(false);
     if (!frame.problem().empty()) return fail(frame.problem());
