@@ -11,8 +11,8 @@ namespace relief::samples::doctor {
 
 namespace {
 
-// Where a verdict begins. Sound maps, faults and noise of tests/doctor lie on both sides; docs/report/doctor.md has how
-// far.
+// Where a verdict begins: sound maps and faults of tests/doctor lie on both sides. How often it is right:
+// docs/report/doctor.md.
 constexpr double kUnit = 0.02;       // the mean error of length that 8-bit codes do not explain (they give 0.004)
 constexpr double kUnitAgain = 0.04;  // and that a map may have where a cause was undone
 constexpr double kUnitInBlocks = 0.08;
@@ -20,7 +20,7 @@ constexpr double kAveraged = 0.4;   // how short a normal is beside how its neig
 constexpr double kMirrored = -0.3;  // curlCorrelation
 constexpr double kOfASurface = 0.3;
 constexpr double kBelow = 0.0005;      // part of the texels
-constexpr double kBias = 1.5 / 255.0;  // of the flat code, beyond 127 or 128
+constexpr double kBias = 3.0 / 255.0;  // of a flat x or y, beyond that of 127 or 128
 constexpr double kMissing = 0.1;       // part of the codes
 constexpr double kBlocks = 1.45;       // kinks at every eighth line
 constexpr double kFewColors = 0.8;
@@ -43,7 +43,7 @@ Lengths lengthsOf(const NormalField& field)
     Lengths lengths;
     double count = 0.0;
     for (const Vector& n : field.normals) {
-        if (n == Vector{0, 0, 1}) continue;  // background
+        if (isBackground(n)) continue;
         ++count;
         const double length = lengthOf(n);
         lengths.meanError += std::abs(length - 1.0);
@@ -74,11 +74,10 @@ bool isGrey(const Channels& p)
 // x in alpha: alpha says something, and red nothing of its own.
 bool isAlphaGreen(const Channels& p)
 {
-    if (deviation(p, 3) < p.step * 0.5 || deviation(p, 1) < p.step * 0.25) return false;
-    double ofRed = deviation(p, 0);
+    if (deviation(p, 3) <= p.step * 0.5 || deviation(p, 1) <= p.step * 0.25) return false;
     const bool redIsGreen =
         std::all_of(p.texels.begin(), p.texels.end(), [](const auto& t) { return std::abs(t[0] - t[1]) < 0.02f; });
-    return ofRed < 0.01 || redIsGreen;
+    return deviation(p, 0) < 0.01 || redIsGreen;
 }
 
 Transfer likeliestTransfer(const Channels& p)
@@ -101,7 +100,7 @@ Vector meanOf(const NormalField& field)
     std::array<double, 3> sum{};
     double count = 1e-9;
     for (const Vector& n : field.normals) {
-        if (n == Vector{0, 0, 1}) continue;  // background
+        if (isBackground(n)) continue;
         ++count;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += n[c];
     }
@@ -129,7 +128,7 @@ NormalField classify(const Channels& p, Diagnosis& d)
         d.kindEvidence = "x is in alpha and y in green; red has nothing of its own";
         return fieldOf(p, Layout::alphaGreen, Transfer::none);
     }
-    if (const auto background = backgroundOf(p)) {
+    if (const auto& background = p.background) {
         d.notes.push_back(format("texels of the colour (%.0f, %.0f, %.0f) are taken for unused",
                                  255.0 * (*background)[0], 255.0 * (*background)[1], 255.0 * (*background)[2]));
     }
@@ -181,25 +180,25 @@ void examineStorage(Patient& p)
 {
     if (p.d.layout == Layout::alphaGreen)
         p.add(Fault::alphaGreen, "x is stored in alpha (DXT5nm); z is not stored", p.d.kindEvidence);
+    if (p.d.transfer == Transfer::none) return;
     const double now = lengthsOf(p.field).meanError;
     const double before = lengthsOf(fieldOf(p.picture, p.d.layout, Transfer::none)).meanError;
     const std::string evidence =
         format("lengths are %.3f from 1 on average, and %.3f when that is undone", before, now);
     if (p.d.transfer == Transfer::wasEncoded)
         p.add(Fault::wasEncoded, "the codes were encoded as sRGB, as colours are: flat is 188, not 128", evidence);
-    if (p.d.transfer == Transfer::wasDecoded)
+    else
         p.add(Fault::wasDecoded, "the codes were decoded from sRGB, as colours are: flat is 55, not 128", evidence);
 }
 
 // The code that most texels have, if it is that of a flat surface.
 void examineFlat(Patient& p)
 {
-    if (p.d.layout == Layout::alphaGreen && p.picture.step == 0.0f) return;
     std::map<std::pair<int, int>, int> count;
     std::array<double, 2> slope{};
     double all = 0.0;
     for (const Vector& n : p.field.normals) {
-        if (n == Vector{0, 0, 1}) continue;  // background
+        if (isBackground(n)) continue;
         ++all;
         ++count[{static_cast<int>(std::lround((n[0] * 0.5f + 0.5f) * 255.0f)),
                  static_cast<int>(std::lround((n[1] * 0.5f + 0.5f) * 255.0f))}];
@@ -219,7 +218,7 @@ void examineFlat(Patient& p)
         evidence = format("the mean of x is %.4f, of y %.4f; a surface that repeats has 0", flat[0], flat[1]);
     }
     const auto beyond = [](double value) { return std::max(0.0, std::abs(value) - 1.0 / 255.0); };
-    if (std::max(beyond(flat[0]), beyond(flat[1])) < 2.0 * kBias) return;
+    if (std::max(beyond(flat[0]), beyond(flat[1])) < kBias) return;
     if (std::max(std::abs(flat[0]), std::abs(flat[1])) > 0.3) return;  // a slope, not a shifted code
     p.d.bias = {static_cast<float>(flat[0]), static_cast<float>(flat[1])};
     const double degrees = std::asin(std::min(1.0, std::hypot(flat[0], flat[1]))) * 57.29578;
@@ -384,7 +383,7 @@ void examineMarks(Patient& p)
     const std::string evidence =
         format("steps over the left and right side are %.1f times the largest others, over bottom and top %.1f",
                seam.leftRight, seam.bottomTop);
-    const bool isOfOneMesh = p.d.kind == Kind::objectSpace || backgroundOf(p.picture);
+    const bool isOfOneMesh = p.d.kind == Kind::objectSpace || p.picture.background.has_value();
     if (isOfOneMesh) {
         p.d.notes.push_back("it does not repeat, and as a map of one mesh's own uv it has no need to: " + evidence);
     } else {
@@ -458,7 +457,6 @@ Expected<Diagnosis> diagnose(const Channels& picture, const Given& given)
         examineMirrors(p);
     }
     if (d.kind == Kind::objectSpace) {
-        examineStorage(p);
         examineLengths(p);
         d.notes.push_back("an object-space map fits its own mesh alone; tangent-space remedies are not for it");
     }
@@ -469,8 +467,6 @@ Expected<Diagnosis> diagnose(const Channels& picture, const Given& given)
     } else if (d.kind == Kind::objectSpace) {
         makeUnit(p.field);
         d.cured = std::move(p.field);
-    } else if (d.kind == Kind::heights) {
-        d.strength = strengthOf(slopesOfHeights(picture, 1.0f));
     }
     return d;
 }

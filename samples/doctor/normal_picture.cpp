@@ -8,9 +8,26 @@
 
 namespace relief::samples::doctor {
 
+namespace {
+
+std::optional<std::array<float, 4>> backgroundOf(const Channels& channels)
+{
+    std::map<std::array<float, 4>, std::size_t> count;
+    for (const auto& t : channels.texels) {
+        const float length = lengthOf({2 * t[0] - 1, 2 * t[1] - 1, 2 * t[2] - 1});
+        if (std::abs(length - 1.0f) > 0.5f) ++count[t];
+    }
+    const auto most =
+        std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (most == count.end() || most->second * 20 < channels.texels.size()) return std::nullopt;
+    return most->first;
+}
+
+}  // namespace
+
 Channels channelsOf(const ImageFile& picture)
 {
-    return std::visit(
+    Channels all = std::visit(
         [](const auto& image) {
             using Channel = std::decay_t<decltype(image.pixels[0])>;
             Channels channels;
@@ -30,19 +47,8 @@ Channels channelsOf(const ImageFile& picture)
             return channels;
         },
         picture);
-}
-
-std::optional<std::array<float, 4>> backgroundOf(const Channels& channels)
-{
-    std::map<std::array<float, 4>, std::size_t> count;
-    for (const auto& t : channels.texels) {
-        const float length = lengthOf({2 * t[0] - 1, 2 * t[1] - 1, 2 * t[2] - 1});
-        if (std::abs(length - 1.0f) > 0.5f) ++count[t];
-    }
-    const auto most =
-        std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (most == count.end() || most->second * 20 < channels.texels.size()) return std::nullopt;
-    return most->first;
+    all.background = backgroundOf(all);
+    return all;
 }
 
 float restored(float code, Transfer transfer)
@@ -64,10 +70,8 @@ NormalField fieldOf(const Channels& channels, Layout layout, Transfer transfer)
     const auto number = [&](float code) {
         return isByte ? table[static_cast<std::size_t>(code * 255.0f + 0.5f)] : 2.0f * restored(code, transfer) - 1.0f;
     };
-    const std::optional<std::array<float, 4>> background =
-        layout == Layout::rgb ? backgroundOf(channels) : std::nullopt;
     for (const std::array<float, 4>& t : channels.texels) {
-        if (background && t == *background) {
+        if (layout == Layout::rgb && channels.background && t == *channels.background) {
             field.normals.push_back({0, 0, 1});
             continue;
         }

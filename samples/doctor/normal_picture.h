@@ -20,6 +20,10 @@ struct Channels
     float step = 1.0f / 255.0f;  // from code to code; 0: floats
     std::vector<std::array<float, 4>> texels;
 
+    // What no triangle uses has one colour, often white or black: the most frequent one, if it is no direction at all
+    // and more than a twentieth of the texels have it.
+    std::optional<std::array<float, 4>> background = {};
+
     std::size_t at(int x, int y) const
     {
         return static_cast<std::size_t>((y + height) % height) * static_cast<std::size_t>(width) +
@@ -28,10 +32,6 @@ struct Channels
 };
 
 Channels channelsOf(const ImageFile& picture);
-
-// What no triangle uses has one colour, often white or black: the most frequent one, if it is no direction at all and
-// more than a twentieth of the texels have it.
-std::optional<std::array<float, 4>> backgroundOf(const Channels& channels);
 
 // Where x and y are. In `alphaGreen` z is what makes the length 1.
 enum class Layout
@@ -63,8 +63,13 @@ struct NormalField
     }
 };
 
-// 2 c - 1, not made unit length. What is background is exactly (0, 0, 1).
+// 2 c - 1, not made unit length. Of the background a flat normal, which no code stands for.
 NormalField fieldOf(const Channels& channels, Layout layout, Transfer transfer);
+
+inline bool isBackground(const Vector& normal)
+{
+    return normal == Vector{0, 0, 1};
+}
 
 float lengthOf(const Vector& v);
 

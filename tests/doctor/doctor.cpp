@@ -129,6 +129,19 @@ TEST_CASE("doctor: heights and pictures of colours are known for what they are")
     CHECK_FALSE(diagnose(channelsOf(Image8{4, 4, std::vector<std::uint8_t>(64, 128)})));
 }
 
+TEST_CASE("doctor: floats whose alpha is 1 and whose red is even are no DXT5nm")
+{
+    ImageFloat ridges{32, 32, {}};
+    for (int i = 0; i < 32 * 32; ++i) {
+        const float y = 0.4f * std::sin(static_cast<float>(i / 32) * 0.39269908f);
+        for (const float c : {0.0f, y, std::sqrt(1.0f - y * y)}) ridges.pixels.push_back(c * 0.5f + 0.5f);
+        ridges.pixels.push_back(1.0f);
+    }
+    const Diagnosis d = *diagnose(channelsOf(ridges));
+    CHECK(d.kind == Kind::tangentSpace);
+    CHECK_MESSAGE(d.findings.empty(), wordsOf(d));
+}
+
 TEST_CASE("doctor: what no triangle uses is left out of account")
 {
     const SoundMap& map = maps()[6];
