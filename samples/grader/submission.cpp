@@ -38,6 +38,12 @@ void add(Words& words, std::initializer_list<std::string> more)
     words.insert(words.end(), more);
 }
 
+// A folder to write into, which is thrown away afterwards.
+void addMemory(Words& words, const fs::path& folder)
+{
+    add(words, {"--size", std::to_string(kMostFileBytes), "--tmpfs", folder.string()});
+}
+
 // The system's programs and libraries, and nothing of /etc but what leads to them.
 void addSystem(Words& words)
 {
@@ -53,13 +59,13 @@ void addSystem(Words& words)
     add(words, {"--ro-bind-try", "/etc/alternatives", "/etc/alternatives"});
     add(words, {"--ro-bind-try", "/etc/ld.so.cache", "/etc/ld.so.cache"});
     add(words, {"--proc", "/proc", "--dev", "/dev"});
+    addMemory(words, "/tmp");  // before what may lie in it: Relief itself
 }
 
 // What compiling and drawing a stage needs of Relief. No stage, no exercise, no answer.
 void addRelief(Words& words)
 {
     const fs::path samples = live::sampleFolder();
-    const std::string size = std::to_string(kMostFileBytes);
     for (const fs::path& path : {samples.parent_path() / "engine", samples.parent_path() / "assets", samples / "common",
                                  samples / "live", fs::path(live::programPath())}) {
         add(words, {"--ro-bind", path.string(), path.string()});
@@ -69,7 +75,9 @@ void addRelief(Words& words)
         add(words, {"--ro-bind-try", folder, folder});
         if (!toolchain.path.starts_with("/usr/")) add(words, {"--ro-bind-try", toolchain.path, toolchain.path});
     }
-    add(words, {"--size", size, "--tmpfs", live::liveFolder() + "/objects", "--size", size, "--tmpfs", "/tmp"});
+    addMemory(words, live::liveFolder() + "/objects");
+    // Where Relief lies below /usr, that has brought the answers along.
+    if (samples.string().starts_with("/usr/")) addMemory(words, samples / "exercises");
 }
 
 // Namespaces of its own for processes, network and all the rest: what is started in it ends with it.
