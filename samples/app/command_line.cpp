@@ -318,7 +318,7 @@ void addReportOptions(CLI::App& command, ReportOptions& options)
                     "with pixels, triangles, threads, lights and textures; error: every approximation's error "
                     "beside its run time; stability: what extreme inputs do, measured against bounds; leave-out: "
                     "what each stage did not need, and what that saved; build: what compiling costs; exercises: what "
-                    "is said of wrong answers")
+                    "is said of wrong answers; doctor: what is said of faults in normal maps")
         ->required();
     command.add_option("--output", options.output, "The folder")->capture_default_str()->type_name("DIR");
     command
@@ -560,11 +560,7 @@ int runProgram(int argc, char** argv, const Program& program)
     command = app.add_subcommand("doctor", "Says what a normal map or height map is, and what is wrong with it");
     DoctorOptions doctorOptions;
     addDoctorOptions(*command, doctorOptions);
-    command->callback([&] {
-        const Expected<int> found = program.doctor != nullptr ? program.doctor(doctorOptions) : elsewhere("doctor");
-        if (found) code = *found;
-        if (!found) result = tl::unexpected(found.error());
-    });
+    command->callback([&] { judge("doctor", program.doctor, doctorOptions); });
 
     command = app.add_subcommand("report", "Measures what a chapter claims, and writes it down: text, table and plot");
     ReportOptions reportOptions;

@@ -39,7 +39,7 @@ struct AnyState
     static constexpr bool severalSamples = several, hasOneTarget = false;
     Compare depthTest;
     bool usesDepth, depthWrite, usesStencil;
-    bool decides;    // whether the program, or alpha, decides which pixels or samples are drawn
+    bool decides;    // decidesCoverage()
     bool testsLate;  // and whether the tests need to know
     bool readsEdges, readsCentroids;
     const Outputs& outputs;
@@ -50,8 +50,7 @@ struct AnyState
           usesDepth(tile.hasDepth() && (depthTest != Compare::always || draw.state.depthWrite)),
           depthWrite(tile.hasDepth() && draw.state.depthWrite),
           usesStencil(tile.hasStencil() && draw.state.stencil.isUsed()),
-          decides(draw.programs->discards || draw.state.alphaToCoverage || draw.programs->outputs.depth ||
-                  draw.programs->outputs.coverage),
+          decides(decidesCoverage(draw)),
           testsLate(draw.programs->outputs.depth || (decides && usesStencil)),
           readsEdges(draw.programs->components > 0),
           readsCentroids(draw.geometry.hasCentroid),

@@ -34,6 +34,14 @@ struct Draw
     DrawGeometry geometry;
 };
 
+// Whether the program, or alpha, decides which pixels or samples are drawn: it runs then, whatever becomes of its
+// colours.
+inline bool decidesCoverage(const Draw& draw)
+{
+    const Outputs& outputs = draw.programs->outputs;
+    return draw.programs->discards || draw.state.alphaToCoverage || outputs.depth || outputs.coverage;
+}
+
 // The draw of a mesh, or a part of it, with copies of its programs: everything but where it goes. An error, one
 // sentence, where the mesh does not have what VertexData asks for.
 Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, const void* fragmentProgram,

@@ -136,8 +136,7 @@ Expected<DrawFacts> factsOf(const Frame& frame, int draw)
         };
         facts.stencil = facts.testsStencil && state.stencil.writeMask != 0 &&
                         !(keeps(state.stencil.front) && keeps(state.stencil.back));
-        facts.program = !leavesOut::colors || facts.colors != 0 || d->programs->discards || state.alphaToCoverage ||
-                        outputs.depth || outputs.coverage;
+        facts.program = !leavesOut::colors || facts.colors != 0 || decidesCoverage(*d);
         return facts;
     });
 }
