@@ -74,7 +74,7 @@ void addDoctorOptions(CLI::App& command, DoctorOptions& options)
         .add_option("--evidence", options.evidence,
                     "Writes a picture: the map, cured, the lengths of its vectors (green: 1), the heights")
         ->type_name("OUT.png");
-    command.add_option("--heights", options.writtenHeights, "Writes the heights that would give the map")
+    command.add_option("--write-heights", options.writtenHeights, "Writes the heights that would give the map")
         ->type_name("OUT.png");
     command.add_flag("--json", options.json, "As JSON");
 }

@@ -210,7 +210,14 @@ void examineFlat(Patient& p)
     std::array<double, 2> flat = {most->first.first / 127.5 - 1.0, most->first.second / 127.5 - 1.0};
     std::string evidence = format("%.0f %% of all texels have red and green (%.0f, %.0f)", 100.0 * most->second / all,
                                   most->first.first, most->first.second);
-    if (most->second < 0.1 * all) {
+    // A flat part has one code; the sides of ridges or of pyramids have several that are as common.
+    const bool isAlone = std::all_of(count.begin(), count.end(), [&](const auto& other) {
+        const auto& [code, texels] = other;
+        const int apart =
+            std::max(std::abs(code.first - most->first.first), std::abs(code.second - most->first.second));
+        return apart <= 2 || 2 * texels < most->second;
+    });
+    if (most->second < 0.1 * all || !isAlone) {
         // No flat part: a surface that repeats goes up as far as it goes down.
         const Seam seam = seamOf(p.picture);
         if (std::max(seam.leftRight, seam.bottomTop) > kSeam) return;

@@ -29,22 +29,47 @@ double kinkAt(const std::array<float, 4>& a, const std::array<float, 4>& b, cons
     return kink;
 }
 
-// The kinks between columns k - 1 and k (or rows) for every k that `period` divides, and for all others: the ratio of
-// their medians, line by line. A pattern of its own may have a few such lines, and blocks have all of them.
-double standsOut(const Channels& p, int period, bool rows)
+// A picture's lines: its columns from left to right, or its rows from the top, where blocks begin.
+struct Lines
 {
-    std::vector<double> first, rest;
-    const int length = rows ? p.height : p.width, other = rows ? p.width : p.height;
-    const auto texel = [&](int along, int across) -> const std::array<float, 4>& {
-        // Blocks begin at the picture's upper left corner.
-        return rows ? p.texels[p.at(across, p.height - 1 - along)] : p.texels[p.at(along, across)];
-    };
-    for (int k = 2; k + 1 < length; ++k) {
-        double sum = 0.0;
-        for (int i = 0; i < other; ++i) sum += kinkAt(texel(k - 2, i), texel(k - 1, i), texel(k, i), texel(k + 1, i));
-        (k % period == 0 ? first : rest).push_back(sum / other);
+    const Channels& p;
+    bool rows;
+    [[nodiscard]] int count() const { return rows ? p.height : p.width; }
+    [[nodiscard]] int length() const { return rows ? p.width : p.height; }
+    [[nodiscard]] const std::array<float, 4>& at(int line, int i) const
+    {
+        return rows ? p.texels[p.at(i, p.height - 1 - line)] : p.texels[p.at(line, i)];
     }
-    if (first.empty() || rest.empty()) return 1.0;
+};
+
+// Whether the picture itself repeats every `period` lines: then its own steps fall together with those of blocks. Lines
+// that far apart differ by less than a quarter of what some pair between them differs by.
+bool repeats(const Lines& lines, int period)
+{
+    double largest = 0.0, last = 0.0;
+    for (int lag = 1; lag <= period; ++lag) {
+        largest = std::max(largest, last);
+        last = 0.0;
+        for (int k = 0; k + period < lines.count(); ++k) {
+            for (int i = 0; i < lines.length(); i += 8) last += stepBetween(lines.at(k, i), lines.at(k + lag, i));
+        }
+    }
+    return last < 0.25 * largest;
+}
+
+// The kinks between lines k - 1 and k for every k that `period` divides, and for all others: the ratio of their
+// medians. A pattern of its own may have a few such lines, and blocks have all of them. 1 where it can't be told.
+double standsOut(const Lines& lines, int period)
+{
+    if (lines.count() <= 2 * period || repeats(lines, 2 * period)) return 1.0;
+    std::vector<double> first, rest;
+    for (int k = 2; k + 1 < lines.count(); ++k) {
+        double sum = 0.0;
+        for (int i = 0; i < lines.length(); ++i) {
+            sum += kinkAt(lines.at(k - 2, i), lines.at(k - 1, i), lines.at(k, i), lines.at(k + 1, i));
+        }
+        (k % period == 0 ? first : rest).push_back(sum / lines.length());
+    }
     const auto median = [](std::vector<double>& list) {
         const auto middle = list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
         std::nth_element(list.begin(), middle, list.end());
@@ -139,8 +164,9 @@ Levels levelsOf(const Channels& channels, Layout layout)
 Blocks blocksOf(const Channels& channels)
 {
     Blocks blocks;
-    blocks.eight = std::max(standsOut(channels, 8, false), standsOut(channels, 8, true));
-    blocks.four = std::max(standsOut(channels, 4, false), standsOut(channels, 4, true));
+    const Lines columns{channels, false}, rows{channels, true};
+    blocks.eight = std::max(standsOut(columns, 8), standsOut(rows, 8));
+    blocks.four = std::max(standsOut(columns, 4), standsOut(rows, 4));
     blocks.fewColors = fewColors(channels);
     return blocks;
 }

@@ -129,17 +129,21 @@ TEST_CASE("doctor: heights and pictures of colours are known for what they are")
     CHECK_FALSE(diagnose(channelsOf(Image8{4, 4, std::vector<std::uint8_t>(64, 128)})));
 }
 
-TEST_CASE("doctor: floats whose alpha is 1 and whose red is even are no DXT5nm")
+TEST_CASE(
+    "doctor: floats whose alpha is 1 and whose red is even are no DXT5nm; waves of a block's length are no blocks")
 {
-    ImageFloat ridges{32, 32, {}};
-    for (int i = 0; i < 32 * 32; ++i) {
-        const float y = 0.4f * std::sin(static_cast<float>(i / 32) * 0.58904862f);  // three waves
-        for (const float c : {0.0f, y, std::sqrt(1.0f - y * y)}) ridges.pixels.push_back(c * 0.5f + 0.5f);
-        ridges.pixels.push_back(1.0f);
+    for (const int waves : {2, 3, 4, 8, 16}) {
+        CAPTURE(waves);
+        ImageFloat ridges{64, 64, {}};
+        for (int i = 0; i < 64 * 64; ++i) {
+            const float y = 0.4f * std::sin(static_cast<float>(i / 64 * waves) * (6.2831853f / 64.0f));
+            for (const float c : {0.0f, y, std::sqrt(1.0f - y * y)}) ridges.pixels.push_back(c * 0.5f + 0.5f);
+            ridges.pixels.push_back(1.0f);
+        }
+        const Diagnosis d = *diagnose(channelsOf(ridges));
+        CHECK(d.kind == Kind::tangentSpace);
+        CHECK_MESSAGE(d.findings.empty(), wordsOf(d));
     }
-    const Diagnosis d = *diagnose(channelsOf(ridges));
-    CHECK(d.kind == Kind::tangentSpace);
-    CHECK_MESSAGE(d.findings.empty(), wordsOf(d));
 }
 
 TEST_CASE("doctor: what no triangle uses is left out of account")
@@ -178,7 +182,7 @@ TEST_CASE("doctor: the command prints, cures, and refuses in one line")
     const std::string wrong = (folder / "wrong.png").string(), cured = (folder / "cured.png").string();
     REQUIRE(writePng(wrong, upsideDown.width, upsideDown.height, upsideDown.pixels));
     const auto run = [&](const std::string& words) { return runCommand(folder, "doctor " + words, "relief_doctor"); };
-    const Outcome first = run("wrong.png --fix cured.png --evidence evidence.png --heights heights.png");
+    const Outcome first = run("wrong.png --fix cured.png --evidence evidence.png --write-heights heights.png");
     CHECK(first.code == 1);
     CHECK(first.out.find("fault: green is upside down") != std::string::npos);
     CHECK(first.out.find("remedy: ./relief doctor wrong.png --fix cured.png") != std::string::npos);
