@@ -49,10 +49,12 @@ function copyFiles(out) {
   }
   for (const file of fs.readdirSync(path.join(build, 'web/book'))) copy(path.join(build, 'web/book', file), 'player/' + file)
   for (const file of fs.readdirSync(path.join(build, 'web/compiler'))) copy(path.join(build, 'web/compiler', file), 'player/compiler/' + file)
-  for (const { folder, goal } of exercises) copy(path.join(root, 'samples/exercises', folder, 'goal.png'), 'player/' + goal)
+  for (const { folder, files } of exercises) {
+    for (const file of files) copy(path.join(root, 'samples/exercises', folder, file), `player/exercises/${folder}/${file}`)
+  }
   fs.writeFileSync(path.join(out, 'player/exercises.json'), JSON.stringify(exercises))
   copy(path.join(docs, '.vitepress/theme/icon.svg'), 'icon.svg')
-  for (const file of ['worker.js', 'compiler.js', 'llvm.mjs']) copy(path.join(docs, '.vitepress/theme/player', file), 'player/' + file)
+  for (const file of ['worker.js', 'compiler.js', 'judge.js', 'llvm.mjs']) copy(path.join(docs, '.vitepress/theme/player', file), 'player/' + file)
 }
 
 // Pages find the libraries where this file does.

@@ -118,6 +118,12 @@ Expected<std::vector<std::uint8_t>> readFile(const std::string& name)
     return bytes;
 }
 
+Expected<std::string> readText(const std::string& name)
+{
+    return readFile(name).map(
+        [](const std::vector<std::uint8_t>& bytes) { return std::string(bytes.begin(), bytes.end()); });
+}
+
 Expected<void> writeFileAtomically(const std::string& name, std::span<const std::uint8_t> bytes)
 {
     const fs::path path = pathOf(name);

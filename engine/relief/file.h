@@ -17,6 +17,9 @@ inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 30;  // 1 GiB
 // than kMaxFileBytes or the memory that is left.
 Expected<std::vector<std::uint8_t>> readFile(const std::string& name);
 
+// The same as a string.
+Expected<std::string> readText(const std::string& name);
+
 // Writes the bytes to a temporary file in the folder of `name` and then renames it, so that a reader sees the old file
 // or the new one and never a part; a symbolic link keeps pointing at the file it names. An error when the folder is
 // missing or read-only, the disk is full, or `name` exists and is no regular file; nothing is left behind then.

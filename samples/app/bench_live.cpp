@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "live/session.h"
+#include "relief/file.h"
 #include "view/pixels.h"
 #include "view/window.h"
 
@@ -87,7 +88,7 @@ Expected<Saves> measure(const live::StageSource& source, const LiveBenchOptions&
     if (!folder) return tl::unexpected(folder.error());
     live::StageSource copy = source;
     copy.path = folder->path + "/" + source.stem + ".cpp";
-    const Expected<std::string> text = live::readText(source.path);
+    const Expected<std::string> text = readText(source.path);
     if (!text) return tl::unexpected(text.error());
     const auto save = [&](const std::string& line) { std::ofstream(copy.path, std::ios::binary) << *text << line; };
     save("");

@@ -2,6 +2,7 @@
 // nobody who wants a picture builds them.
 #include "command_line.h"
 #include "commands.h"
+#include "doctor/command.h"
 #include "grader/commands.h"
 #include "grader/submission.h"
 #include "trace/command.h"
@@ -45,5 +46,6 @@ int main(int argc, char** argv)
                        .exercise = exercise,
                        .checkExercise = checkExercise,
                        .grade = grade,
-                       .renderSubmission = grader::renderSubmission});
+                       .renderSubmission = grader::renderSubmission,
+                       .doctor = examineMap});
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 namespace relief::samples::doctor {
@@ -120,6 +119,22 @@ bool isStriped(const Channels& p)
     return rows || columns;
 }
 
+// How much of a list of codes lies evenly, up to rounding: of all stretches of so many codes, those in which none is
+// farther than one code from the straight line. A pattern that repeats often has few codes, too, but not evenly.
+double evenPart(const std::vector<int>& codes)
+{
+    const std::size_t stretch = std::min<std::size_t>(codes.size(), 16) - 1;
+    int even = 0, all = 0;
+    for (std::size_t i = 0; i + stretch < codes.size(); ++i, ++all) {
+        const double slope = static_cast<double>(codes[i + stretch] - codes[i]) / static_cast<double>(stretch);
+        bool isEven = true;
+        for (std::size_t k = 1; k < stretch; ++k)
+            isEven = isEven && std::abs(codes[i + k] - codes[i] - slope * static_cast<double>(k)) <= 1.0;
+        even += isEven;
+    }
+    return static_cast<double>(even) / all;
+}
+
 }  // namespace
 
 Levels levelsOf(const Channels& channels, Layout layout)
@@ -129,9 +144,9 @@ Levels levelsOf(const Channels& channels, Layout layout)
     for (const std::size_t c : {layout == Layout::alphaGreen ? std::size_t{3} : std::size_t{0}, std::size_t{1}}) {
         std::array<double, 256> count{};
         for (const auto& t : channels.texels) ++count[static_cast<std::size_t>(t[c] * 255.0f + 0.5f)];
-        // Where a code should be: the sixteen around it are common. The gaps between those that are.
-        int expected = 0, missing = 0, before = -1;
-        std::vector<int> gaps;
+        // Where a code should be: the sixteen around it are common. Those that are.
+        int expected = 0, missing = 0;
+        std::vector<int> present;
         for (int k = 8; k < 248; ++k) {
             double around = 0.0;
             int there = 0;
@@ -146,16 +161,13 @@ Levels levelsOf(const Channels& channels, Layout layout)
                 ++missing;
                 continue;
             }
-            if (before >= 0) gaps.push_back(k - before);
-            before = k;
+            present.push_back(k);
         }
-        if (expected < 16 || gaps.size() < 4) continue;
+        if (expected < 16 || present.size() < 5) continue;
         const double part = static_cast<double>(missing) / expected;
-        const double spacing = std::accumulate(gaps.begin(), gaps.end(), 0.0) / static_cast<double>(gaps.size());
-        // A pattern that repeats often has few codes, too, but not evenly.
-        const auto even =
-            std::count_if(gaps.begin(), gaps.end(), [&](int gap) { return std::abs(gap - spacing) < 1.0; });
-        const bool isEven = static_cast<double>(even) > 0.75 * static_cast<double>(gaps.size());
+        const double spacing =
+            static_cast<double>(present.back() - present.front()) / static_cast<double>(present.size() - 1);
+        const bool isEven = evenPart(present) > 0.75;
         if (isEven && part > worst.missing) worst = {part, spacing};
     }
     return worst;

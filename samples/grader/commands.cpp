@@ -9,7 +9,6 @@
 #include "grader/diagnosis.h"
 #include "grader/submission.h"
 #include "live/toolchain.h"
-#include "live/watch.h"
 #include "relief/file.h"
 #include "relief/path.h"
 
@@ -26,7 +25,7 @@ constexpr const char* kSolved = "solved.txt";  // beside the learner's files: an
 std::set<std::string> solvedIn(const fs::path& folder)
 {
     std::set<std::string> ids;
-    std::istringstream lines(live::readText(utf8Of(folder / kSolved)).value_or(""));
+    std::istringstream lines(readText(utf8Of(folder / kSolved)).value_or(""));
     for (std::string id; lines >> id;) ids.insert(id);
     return ids;
 }
@@ -112,7 +111,7 @@ Expected<int> checkExercise(const std::string& file)
     const Expected<live::StageSource> source = live::findSource(file);
     if (!source)
         return fail(file + ": there is no such file; `relief exercise` lists exercises, and writes one's file");
-    const Expected<std::string> text = live::readText(source->path);
+    const Expected<std::string> text = readText(source->path);
     if (!text) return tl::unexpected(text.error());
     const std::string id = exerciseIdOf(file, *text);
     if (id.empty()) {

@@ -209,8 +209,11 @@ std::vector<std::string> unmet(const Exercise& exercise, const Image8& picture, 
 
 Diagnosis diagnose(const Exercise& exercise, const Catalogue& catalogue, const Framebuffer& picture)
 {
-    const std::string hash = hexadecimal(hashOf(picture));
-    const Image8 codes = codesOf(picture);
+    return diagnose(exercise, catalogue, hexadecimal(hashOf(picture)), codesOf(picture));
+}
+
+Diagnosis diagnose(const Exercise& exercise, const Catalogue& catalogue, const std::string& hash, const Image8& codes)
+{
     Diagnosis diagnosis;
     diagnosis.fromGoal = distanceOf(codes.pixels, catalogue.goal.pixels, kWidth);
     for (const Entry& entry : catalogue.entries) {

@@ -43,6 +43,9 @@ inline constexpr double kNear = 2.0, kMargin = 4.0, kTie = 0.1;
 
 Diagnosis diagnose(const Exercise& exercise, const Catalogue& catalogue, const Framebuffer& picture);
 
+// The same from the picture's hash, 16 digits, and its codes, kWidth by kHeight.
+Diagnosis diagnose(const Exercise& exercise, const Catalogue& catalogue, const std::string& hash, const Image8& codes);
+
 // The conditions of an open exercise that a picture does not meet, with what was measured. Both are small pictures.
 std::vector<std::string> unmet(const Exercise& exercise, const Image8& picture, const Image8& start);
 

@@ -5,8 +5,7 @@
 #include <regex>
 #include <sstream>
 
-#include "grader/goal.h"
-#include "live/watch.h"
+#include "relief/file.h"
 #include "relief/path.h"
 
 namespace relief::samples::grader {
@@ -221,9 +220,9 @@ Expected<Exercise> readExercise(const std::string& folder)
     Exercise exercise;
     exercise.folder = folder;
     exercise.stem = utf8Of(pathOf(folder).filename());
-    const Expected<std::string> page = live::readText(folder + "/exercise.md");
+    const Expected<std::string> page = readText(folder + "/exercise.md");
     if (!page) return tl::unexpected(page.error());
-    const Expected<std::string> answer = live::readText(folder + "/answer/answer.cpp");
+    const Expected<std::string> answer = readText(folder + "/answer/answer.cpp");
     if (!answer) return tl::unexpected(answer.error());
     exercise.answer = *answer;
     Reader reader{exercise, {}, {}};
@@ -232,25 +231,6 @@ Expected<Exercise> readExercise(const std::string& folder)
     const std::string problem = reader.problem.empty() ? problemWith(exercise) : reader.problem;
     if (!problem.empty()) return fail(folder + "/exercise.md: " + problem);
     return exercise;
-}
-
-Expected<std::vector<Exercise>> allExercises()
-{
-    const fs::path folder = pathOf(live::sampleFolder() + "/exercises");
-    std::vector<std::string> folders;
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-        if (entry.is_directory(error)) folders.push_back(utf8Of(entry.path()));
-    }
-    if (folders.empty()) return fail(utf8Of(folder) + ": has no exercises; get Relief's sources again");
-    std::sort(folders.begin(), folders.end());
-    std::vector<Exercise> all;
-    for (const std::string& one : folders) {
-        Expected<Exercise> exercise = readExercise(one);
-        if (!exercise) return tl::unexpected(exercise.error());
-        all.push_back(std::move(*exercise));
-    }
-    return all;
 }
 
 Expected<const Exercise*> findExercise(const std::vector<Exercise>& all, const std::string& name)
@@ -354,21 +334,6 @@ std::string exerciseIdOf(const std::string& path, const std::string& text)
     const std::string first = text.substr(0, text.find('\n')), stem = utf8Of(pathOf(path).stem());
     if (std::regex_search(first, m, head)) return m[1];
     return std::regex_match(stem, m, name) ? m[1].str() : "";
-}
-
-std::optional<live::StageSource> goalOf(const live::StageSource& source)
-{
-    if (!source.id.empty()) return std::nullopt;
-    const std::string id = exerciseIdOf(source.path, live::readText(source.path).value_or(""));
-    if (id.empty()) return std::nullopt;
-    const Expected<std::vector<Exercise>> all = allExercises();
-    if (!all) return std::nullopt;
-    const Expected<const Exercise*> found = findExercise(*all, id);
-    if (!found) return std::nullopt;
-    live::StageSource answer = source;
-    answer.path = (*found)->folder + "/answer/answer.cpp";
-    answer.stem = "goal";
-    return answer;
 }
 
 }  // namespace relief::samples::grader

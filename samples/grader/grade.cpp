@@ -8,7 +8,7 @@
 
 #include "grader/commands.h"
 #include "live/toolchain.h"
-#include "live/watch.h"
+#include "relief/file.h"
 #include "relief/path.h"
 #include "relief/pipeline/workers.h"
 
@@ -78,7 +78,7 @@ void gradeOne(const Class& its, Graded& one)
     const std::string path = its.folder + "/" + one.file;
     std::error_code error;
     if (fs::file_size(pathOf(path), error) > kMostText) return refuse(one, "refused", "the file is larger than 1 MB");
-    const Expected<std::string> text = live::readText(path);
+    const Expected<std::string> text = readText(path);
     if (!text) return refuse(one, "refused", text.error().message);
     const Expected<const Exercise*> exercise = findExercise(its.exercises, exerciseIdOf(path, *text));
     if (!exercise) return refuse(one, "refused", "does not say which exercise it is");

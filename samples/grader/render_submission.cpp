@@ -14,7 +14,7 @@
 #include "grader/picture.h"
 #include "grader/submission.h"
 #include "live/load.h"
-#include "live/watch.h"
+#include "relief/file.h"
 
 namespace relief::samples::grader {
 
@@ -103,7 +103,7 @@ int render(const std::string& path)
     ::dup2(2, 1);
     const Expected<live::StageSource> source = live::findSource(path);
     if (!source) return refused(source.error());
-    const Expected<std::string> text = live::readText(source->path);
+    const Expected<std::string> text = readText(source->path);
     if (!text) return refused(text.error());
     const Expected<live::PrivateFolder> folder = live::PrivateFolder::create();
     if (!folder) return refused(folder.error());

@@ -97,10 +97,6 @@ std::string formatted(const std::vector<Diagnostic>&)
 {
     return "";
 }
-Expected<std::string> readText(const std::string&)
-{
-    return needsLinux();
-}
 
 }  // namespace relief::samples::live
 

@@ -6,7 +6,7 @@
 #include <dlfcn.h>
 
 #include "live/compiled_programs.h"
-#include "live/watch.h"
+#include "relief/file.h"
 
 namespace relief::samples::live {
 

@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "live/compile.h"
-#include "live/watch.h"
+#include "relief/file.h"
 
 namespace relief::samples::live {
 

@@ -1,4 +1,5 @@
 #include "live/session.h"
+#include "relief/file.h"
 
 #include <algorithm>
 #include <set>

@@ -20,12 +20,6 @@ constexpr auto kPollEvery = 30ms;
 
 }  // namespace
 
-Expected<std::string> readText(const std::string& path)
-{
-    return readFile(path).map(
-        [](const std::vector<std::uint8_t>& bytes) { return std::string(bytes.begin(), bytes.end()); });
-}
-
 Watch::Watch(std::string path, bool polling, std::chrono::milliseconds itsQuiet)
     : file(std::move(path)), quiet(itsQuiet)
 {

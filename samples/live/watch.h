@@ -52,7 +52,4 @@ private:
     Clock::time_point first, last, looked;
 };
 
-// The whole file. An error as of readFile(): an empty one is one, too.
-Expected<std::string> readText(const std::string& path);
-
 }  // namespace relief::samples::live

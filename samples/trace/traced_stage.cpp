@@ -1,7 +1,7 @@
 #include "trace/traced_stage.h"
 
 #include "live/load.h"
-#include "live/watch.h"
+#include "relief/file.h"
 #include "trace/instrument.h"
 
 namespace relief::samples::trace {
@@ -10,7 +10,7 @@ Expected<TracedStage> loadTraced(const std::string& name)
 {
     const Expected<live::StageSource> source = live::findSource(name);
     if (!source) return tl::unexpected(source.error());
-    const Expected<std::string> text = live::readText(source->path);
+    const Expected<std::string> text = readText(source->path);
     if (!text) return tl::unexpected(text.error());
     TracedStage result{nullptr, nullptr, source->stem + ".cpp", *text, *source};
 

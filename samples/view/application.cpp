@@ -1,5 +1,8 @@
 #include "view/application.h"
 
+#include <algorithm>
+#include <cctype>
+
 #include <SDL.h>
 
 #include "prepare.h"
@@ -11,10 +14,37 @@ namespace {
 constexpr int kRest = 4;  // frames after an event, until what Dear ImGui shows of it no longer changes: a tab, chosen
                           // by a button, has its contents in the third and their size in the fourth
 
+bool endsWithOneOf(std::string file, std::initializer_list<const char*> endings)
+{
+    for (char& c : file) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return file.ends_with(ending); });
+}
+
+bool isPicture(const std::string& file)
+{
+    return endsWithOneOf(file, {".png", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr", ".pfm"});
+}
+
+// A file in place of a stage is shown by a stage: a scene by one that is there for it, a normal map by 1.12.
+ViewOptions withStage(ViewOptions options)
+{
+    std::string& stage = options.render.stage;
+    if (isPicture(stage)) {
+        options.render.files.textures[TextureSlot::normal] = stage;
+        options.render.settings.emplace_back("bumpScale=1");
+        stage = "1.12";
+    } else if (endsWithOneOf(stage, {".glb", ".gltf"})) {
+        options.render.files.mesh = stage;
+        stage = live::sampleFolder() + "/view/scene_of_file.cpp";
+    }
+    return options;
+}
+
 }  // namespace
 
-Expected<std::unique_ptr<Application>> Application::open(const ViewOptions& options)
+Expected<std::unique_ptr<Application>> Application::open(const ViewOptions& given)
 {
+    const ViewOptions options = withStage(given);
     const Expected<live::StageSource> source = live::findSource(options.render.stage);
     if (!source) return tl::unexpected(source.error());
     const Expected<live::Look> look = lookOf(options.render);
@@ -33,6 +63,7 @@ Expected<std::unique_ptr<Application>> Application::open(const ViewOptions& opti
     made->interface = std::make_unique<Interface>(*made->viewer, made->window);
     made->alarm = std::make_unique<Alarm>();
     made->redraws = kRest;
+    if (isPicture(given.render.stage)) made->interface->examine(TextureSlot::normal, given.render.stage);
     return made;
 }
 

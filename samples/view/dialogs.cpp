@@ -130,6 +130,7 @@ void Interface::dialogs()
     recordTurn();
     recording();
     dropped();
+    doctorDialog();
 }
 
 void Interface::help()

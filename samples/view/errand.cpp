@@ -1,38 +1,38 @@
 #include "view/errand.h"
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
-#include <fcntl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace relief::samples {
 
-Expected<void> Errand::begin(const std::string& command, const std::string& file)
+Expected<void> Errand::begin(const std::string& command, const std::string& file, int worst)
 {
     path = file;
+    worstCode = worst;
     printed.clear();
-    // A shell that becomes the program: what ends one ends the other.
-    output.reset(::popen(("exec " + command + " 2>&1 </dev/null").c_str(), "re"));
-    if (!output) return fail(std::string("no process can be made (") + std::strerror(errno) + "); try again");
-    ::fcntl(descriptor(), F_SETFL, O_NONBLOCK);
+    process = {};
+    Expected<Child> started = Child::start(command + " </dev/null");
+    if (!started) return tl::unexpected(started.error());
+    process = std::move(*started);
     return {};
 }
 
 std::optional<Expected<std::string>> Errand::poll()
 {
     char buffer[4096];
-    while (output) {
-        const ssize_t size = ::read(descriptor(), buffer, sizeof buffer);
+    while (process.stream() >= 0) {
+        const ssize_t size = ::read(process.stream(), buffer, sizeof buffer);
+        if (size < 0 && errno == EINTR) continue;
         if (size < 0) return std::nullopt;  // nothing more yet
         if (size > 0) {
             printed.append(buffer, static_cast<std::size_t>(size));
             continue;
         }
-        const int status = ::pclose(output.release());
-        if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return path;
+        const int code = process.exitCode();
+        process = {};
+        if (code >= 0 && code <= worstCode) return path;
         while (!printed.empty() && printed.back() == '\n') printed.pop_back();
         return fail(printed.empty() ? path + " was not written" : printed.substr(printed.rfind('\n') + 1));
     }

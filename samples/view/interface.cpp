@@ -88,7 +88,7 @@ bool Interface::update()
 {
     if (newScale) window.setScale(*newScale);
     newScale.reset();
-    const bool news = updatePixel();
+    const bool news = std::max(updatePixel(), updateDoctor());
     if (!turn || dialog != Dialog::recording) return news;
     const Expected<void> written = turn->update(viewer);
     if (written && !turn->done()) return news;

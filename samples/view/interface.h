@@ -1,6 +1,7 @@
 // All controls of the window, drawn with Dear ImGui: they show the viewer's state and call its functions. Which file
 // has what: panel.cpp the stage's properties, stages_tab.cpp the list of stages, toolbar.cpp what is above and below
-// the picture, picture_area.cpp the picture, dialogs.cpp questions and help.
+// the picture, picture_area.cpp the picture, doctor_dialog.cpp what is wrong with a map, dialogs.cpp questions and
+// help.
 #pragma once
 
 #include <map>
@@ -23,13 +24,16 @@ public:
 
     void take(const SDL_Event& event);  // keys and dropped files
     bool update();                      // after Viewer::update(); true: there is news
-    void draw();                        // between Window's beginFrame() and endFrame()
+    // Opens the doctor's dialog about a map of the stage's.
+    void examine(TextureSlot slot, const std::string& file);
+    void draw();  // between Window's beginFrame() and endFrame()
     bool wantsMore() const { return thumbnailsWanted; }
 
     // Call update() when one of them is readable; -1: nothing.
-    std::array<int, 3> descriptors() const
+    std::array<int, 5> descriptors() const
     {
-        return {lifePage.descriptor(), everywhere.descriptor(), teller.descriptor()};
+        return {lifePage.descriptor(), everywhere.descriptor(), teller.descriptor(), doctor.descriptor(),
+                cured.descriptor()};
     }
 
     bool running = true;
@@ -40,7 +44,8 @@ public:
         float left, top, right, bottom;
     };
     std::map<std::string, Place> places;
-    std::string copied;       // to the clipboard
+    std::string copied;  // to the clipboard
+    const std::string& diagnosis() const { return examined.words; }
     PixelStep shown() const;  // of the kept pixel's life; empty where none is told
 
 private:
@@ -51,7 +56,8 @@ private:
         save,
         turn,
         recording,
-        drop
+        drop,
+        doctor
     };
     static constexpr int kTabs = 3;
 
@@ -104,6 +110,11 @@ private:
     void problem(float x, float y, float width, float height);
     void diagnostic(const live::Diagnostic& diagnostic, bool first) const;
 
+    // doctor_dialog.cpp
+    void doctorDialog();
+    void cure();
+    bool updateDoctor();
+
     // dialogs.cpp
     void dialogs();
     bool beginDialog(Dialog which, const char* title);
@@ -139,6 +150,18 @@ private:
     std::string shownName;        // of that value
     bool pixelTabShown = false;
     int step = 0, shownStep = -1;  // of the pixel's values, from 0
+
+    Errand doctor, cured;
+    Picture evidence;
+    struct
+    {
+        TextureSlot slot = {};
+        std::string file;
+        bool isCurable = false;
+        std::string words;    // the diagnosis, or why there is none
+        float height = 0.0f;  // of the evidence, in pixels
+    } examined;
+    int cures = 0;
 
     Dialog dialog = Dialog::none;
     std::string dialogProblem, savePath, turnFolder;

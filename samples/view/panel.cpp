@@ -379,6 +379,12 @@ void Interface::inputSection()
                 }
                 place("input." + label);
             }
+            const std::string map = file.empty() ? slot.usual : file;
+            if (std::string(slot.name).ends_with("normal") && map != kNone) {
+                ImGui::Separator();
+                if (ImGui::Selectable("ask the doctor ...")) examine(*slot.texture, map);
+                place("input.doctor");
+            }
             ImGui::EndCombo();
         }
         place(std::string("input.") + slot.name);

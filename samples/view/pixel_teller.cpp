@@ -1,22 +1,15 @@
 #include "view/pixel_teller.h"
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
-#include <cstring>
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
 #include "live/toolchain.h"
 #include "picture_command.h"
-
-extern char** environ;
 
 namespace relief::samples {
 
@@ -92,11 +85,6 @@ PixelLife lifeOf(const Json& trace)
 
 }  // namespace
 
-PixelTeller::~PixelTeller()
-{
-    stop();
-}
-
 void PixelTeller::ask(const live::StageSource& source, const live::Look& look, int version, int x, int y)
 {
     const std::string command = traceCommand(live::programPath(), source, "--json --pixel -", look);
@@ -121,8 +109,8 @@ bool PixelTeller::poll()
 {
     bool news = false;
     char buffer[65536];
-    while (stream >= 0 && waits) {
-        const ssize_t size = ::read(stream, buffer, sizeof buffer);
+    while (process.stream() >= 0 && waits) {
+        const ssize_t size = ::read(process.stream(), buffer, sizeof buffer);
         if (size < 0 && errno == EINTR) continue;
         if (size < 0) break;  // nothing more yet
         if (size == 0) {      // it ended: what it wrote last is why
@@ -159,9 +147,9 @@ void PixelTeller::take(const std::string& line)
 
 void PixelTeller::send()
 {
-    if (stream < 0 || waits || !wish) return;
+    if (process.stream() < 0 || waits || !wish) return;
     const std::string line = std::to_string(wish->first) + "," + std::to_string(wish->second) + "\n";
-    if (::send(stream, line.data(), line.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(line.size())) return;
+    if (::send(process.stream(), line.data(), line.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(line.size())) return;
     asked = wish;
     wish.reset();
     waits = true;
@@ -169,38 +157,17 @@ void PixelTeller::send()
 
 void PixelTeller::start(const std::string& command)
 {
-    int ends[2];
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-        complaint = std::string("no process can be made (") + std::strerror(errno) + "); try again";
+    Expected<Child> started = Child::start(command);
+    if (!started) {
+        complaint = started.error().message;
         return;
     }
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    for (const int number : {0, 1, 2}) posix_spawn_file_actions_adddup2(&files, ends[1], number);
-    // A shell that becomes the program: what ends one ends the other.
-    const std::string text = "exec " + command;
-    const char* const words[] = {"/bin/sh", "-c", text.c_str(), nullptr};
-    const int problem = ::posix_spawn(&process, words[0], &files, nullptr, const_cast<char* const*>(words), environ);
-    posix_spawn_file_actions_destroy(&files);
-    ::close(ends[1]);
-    if (problem != 0) {
-        process = -1;
-        ::close(ends[0]);
-        complaint = std::string("no process can be made (") + std::strerror(problem) + "); try again";
-        return;
-    }
-    stream = ends[0];
-    ::fcntl(stream, F_SETFL, O_NONBLOCK);
+    process = std::move(*started);
 }
 
 void PixelTeller::stop()
 {
-    if (stream >= 0) ::close(stream);
-    if (process > 0) {
-        ::kill(process, SIGTERM);
-        ::waitpid(process, nullptr, 0);
-    }
-    stream = process = -1;
+    process = {};
     waits = false;
     asked.reset();
     wish.reset();

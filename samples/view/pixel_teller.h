@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <sys/types.h>
-
 #include "live/renderer.h"
+#include "view/child.h"
 
 namespace relief::samples {
 
@@ -35,11 +34,6 @@ struct PixelLife
 class PixelTeller
 {
 public:
-    PixelTeller() = default;
-    ~PixelTeller();  // ends the process
-    PixelTeller(const PixelTeller&) = delete;
-    PixelTeller& operator=(const PixelTeller&) = delete;
-
     // Wants a pixel of what is shown: `version` is another number whenever that may be another picture. One wish is
     // kept, the last; none of a pixel that is known.
     void ask(const live::StageSource& source, const live::Look& look, int version, int x, int y);
@@ -52,7 +46,7 @@ public:
     const PixelLife* told(int x, int y) const;
     const std::string& problem() const { return complaint; }
 
-    int descriptor() const { return waits ? stream : -1; }  // call poll() when it is readable
+    int descriptor() const { return waits ? process.stream() : -1; }  // call poll() when it is readable
 
 private:
     using Point = std::pair<int, int>;  // x, y
@@ -62,8 +56,7 @@ private:
     void take(const std::string& line);
 
     std::string running;  // the command, and the version that it was started for
-    pid_t process = -1;
-    int stream = -1;  // both ways
+    Child process;
     bool waits = false;
     std::optional<Point> wish, asked;
     std::string received, complaint;

@@ -4,23 +4,8 @@
 
 namespace relief::samples {
 
-namespace {
-
-// A glTF file in place of a stage is shown by a stage that is there for it.
-ViewOptions withStage(ViewOptions options)
+Expected<void> view(const ViewOptions& options)
 {
-    std::string& stage = options.render.stage;
-    if (!stage.ends_with(".glb") && !stage.ends_with(".gltf")) return options;
-    options.render.files.mesh = stage;
-    stage = live::sampleFolder() + "/view/scene_of_file.cpp";
-    return options;
-}
-
-}  // namespace
-
-Expected<void> view(const ViewOptions& given)
-{
-    const ViewOptions options = withStage(given);
     const Expected<std::unique_ptr<Application>> opened = Application::open(options);
     if (!opened) return tl::unexpected(opened.error());
     Application& application = **opened;

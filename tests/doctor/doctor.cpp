@@ -65,7 +65,9 @@ TEST_CASE("doctor: 95 of 100 single faults are named, and nine of ten in pairs")
         CHECK(others <= 0.05 * asked);
     };
     examine(singleFaults(), 0.95);
+#ifndef RELIEF_SHORT_TESTS
     examine(doubleFaults(), 0.9);
+#endif
 }
 
 TEST_CASE("doctor: what it cures is the map as it was, but for rounding")

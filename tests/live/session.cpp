@@ -9,6 +9,7 @@
 #include "live/new_stage.h"
 #include "live/session.h"
 #include "relief/check/hash.h"
+#include "relief/file.h"
 #include "temporary_folder.h"
 
 namespace {

@@ -13,13 +13,13 @@
 
 #include "common/render.h"
 #include "live/load.h"
-#include "live/watch.h"
 #include "relief/check/hash.h"
 #include "relief/trace/pixel_trace.h"
 #include "relief/trace/variable.h"
 #include "trace/instrument.h"
 
 #include "live_command.h"
+#include "relief/file.h"
 
 using namespace relief;
 using namespace relief::samples;
@@ -44,8 +44,8 @@ struct Picture
 const Stage* tracedStage(const std::string& name)
 {
     const live::StageSource source = *live::findSource(name);
-    Expected<live::StageCompile> compile = live::StageCompile::start(
-        source, samples::trace::instrumented(*live::readText(source.path), source.stem), true);
+    Expected<live::StageCompile> compile =
+        live::StageCompile::start(source, samples::trace::instrumented(*readText(source.path), source.stem), true);
     REQUIRE_MESSAGE(compile.has_value(), compile.error().message);
     const Expected<const Stage*> stage = compile->finish();
     REQUIRE_MESSAGE(stage.has_value(), stage.error().message);

@@ -488,6 +488,62 @@ TEST_CASE("view: dropped files ask what they are")
     CHECK(viewer.look().files.mesh == "cube");
 }
 
+TEST_CASE("view: the doctor examines a map, and the cured one takes its place")
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder / "bumps.png").string();
+    Pixels sound{64, 64, {}}, wrong = sound;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            // Of one surface: v goes up, and y goes down.
+            const float wave = std::sin(static_cast<float>(x + 2 * y) * 0.09817477f);
+            const float u = 0.4f * std::sin(static_cast<float>(3 * x) * 0.09817477f + 1.0f) + 0.15f * wave,
+                        down = 0.3f * wave;
+            const float length = std::sqrt(u * u + down * down + 1.0f);
+            const auto code = [&](float value) {
+                return static_cast<std::uint32_t>((value / length * 0.5f + 0.5f) * 255.0f + 0.5f);
+            };
+            const std::uint32_t rest = code(u) | code(1.0f) << 16 | 0xff000000u;
+            sound.colors.push_back(rest | code(-down) << 8);
+            wrong.colors.push_back(rest | code(down) << 8);
+        }
+    }
+    REQUIRE(writePixels(file, wrong));
+
+    const Hands hands(file);
+    Viewer& viewer = hands.viewer();
+    REQUIRE(hands.until([&] { return !hands.interface().diagnosis().empty(); }));
+    hands.settle();
+    CHECK_MESSAGE(hands.interface().diagnosis().find("fault: green is upside down") != std::string::npos,
+                  hands.interface().diagnosis());
+    const Hands::Place shown = hands.place("doctor.evidence");
+    CHECK(shown.right - shown.left == doctest::Approx(4.0f * (shown.bottom - shown.top)).epsilon(0.02));
+    CHECK(viewer.stage()->title == "Bump scale");
+    CHECK(viewer.look().files.textures[TextureSlot::normal] == file);
+    const std::vector<std::uint32_t> before = viewer.picture().colors;
+
+    hands.click("doctor.cure");
+    REQUIRE(hands.until([&] { return viewer.look().files.textures[TextureSlot::normal] != file; }));
+    REQUIRE(hands.until([&] { return viewer.picture().colors != before; }));
+    hands.settle();
+    CHECK_FALSE(hands.has("doctor.close"));
+    const Expected<Pixels> cured = readPixels(viewer.look().files.textures[TextureSlot::normal]);
+    REQUIRE(cured);
+    CHECK(differenceOf(*cured, sound, 1).largest <= 1);
+
+    for (const char* section : {"section.Picture", "section.Camera", "section.Properties", "section.Inputs"})
+        hands.click(section);
+    hands.choose("input.normal", "input.doctor");
+    hands.until([&] { return hands.interface().diagnosis().find("no fault was found") != std::string::npos; });
+    CHECK_MESSAGE(hands.interface().diagnosis().find("no fault was found") != std::string::npos,
+                  hands.interface().diagnosis());
+    hands.settle();
+    CHECK_FALSE(hands.has("doctor.cure"));
+    hands.click("doctor.close");
+    CHECK_FALSE(hands.has("doctor.close"));
+    std::filesystem::remove(viewer.look().files.textures[TextureSlot::normal]);
+}
+
 TEST_CASE("view: keys")
 {
     const Own own;

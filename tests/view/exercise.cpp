@@ -3,7 +3,7 @@
 
 #include "hands.h"
 #include "live/toolchain.h"
-#include "live/watch.h"
+#include "relief/file.h"
 
 using namespace relief;
 using namespace relief::samples;
@@ -11,7 +11,7 @@ using namespace relief::samples;
 TEST_CASE("view: an exercise's file stands beside its goal, and the difference goes when it is solved")
 {
     const TemporaryFolder folder;
-    const std::string answer = *live::readText(live::sampleFolder() + "/exercises/1.08a_along_v/answer/answer.cpp");
+    const std::string answer = *readText(live::sampleFolder() + "/exercises/1.08a_along_v/answer/answer.cpp");
     std::string wrong = answer;
     wrong.replace(wrong.find("(v1 - v2)"), 9, "(v2 - v1)");
     const std::string path = folder.write("1.08a_mine.cpp", wrong).string();

@@ -276,17 +276,55 @@ const parts = {
       await page.click('.editor .compile')
     }
     await page.selectOption('.editor .exercise select', '1.08a')
-    await verdict('as it is given')
+    await verdict('as it was given')
     const answer = fs.readFileSync(fileURLToPath(new URL('../../../samples/exercises/1.08a_along_v/answer/answer.cpp', import.meta.url)), 'utf8')
       .match(/\/\/ your turn.*\n([\s\S]*?)\n *\/\/ end of your turn/)[1]
     await fill(answer.replace('(v1 - v2)', '(v2 - v1)'))
-    await verdict('wrong sign')
+    await verdict('Your v slope has the wrong sign: bumps are dents. Your picture is, bit for bit, what that gives. See 1.08.')
+    await fill(answer.replace('(v1 - v2)', '(v2 - v1) * 1.03f'))
+    await verdict('Your picture is nearest to what that gives, of all known mistakes')
     await fill(answer)
     await verdict('Solved, bit for bit.')
     await fill(answer.replace('(v1 - v2)', '(v1 - v2) * 0.9f'))
     await verdict('none of the')
     await page.close()
     return 'a mistake, the answer, and what is neither'
+  },
+
+  // A map with its green upside down, in both languages; the cured one is sound; a text is no picture.
+  async doctor() {
+    for (const language of languages) {
+      const page = await pageOf(`${language}doctor.html`)
+      const bytes = await page.evaluate(() => new Promise((resolve) => {
+        const canvas = Object.assign(document.createElement('canvas'), { width: 64, height: 64 }), context = canvas.getContext('2d')
+        const picture = context.createImageData(64, 64)
+        for (let i = 0; i < 64 * 64; ++i) {
+          const x = i % 64, y = Math.floor(i / 64), wave = Math.sin((x + 2 * y) * 0.09817477)
+          const u = 0.4 * Math.sin(3 * x * 0.09817477 + 1) + 0.15 * wave, v = 0.3 * wave, length = Math.hypot(u, v, 1)
+          picture.data.set([u, v, 1].map((n) => Math.round((n / length * 0.5 + 0.5) * 255)).concat(255), 4 * i)
+        }
+        context.putImageData(picture, 0, 0)
+        canvas.toBlob(async (blob) => resolve([...new Uint8Array(await blob.arrayBuffer())]), 'image/png')
+      }))
+      const examine = async (name, buffer, words) => {
+        await page.setInputFiles('.map-doctor input[name=map]', { name, mimeType: 'image/png', buffer })
+        await page.waitForFunction((words) => document.querySelector('.map-doctor')?.textContent.includes(words), words, { timeout: 30000 })
+          .catch(async () => failures.push(`${language}: the doctor does not say "${words}": ${await page.textContent('.map-doctor')}`))
+      }
+      await examine('bumps.png', Buffer.from(bytes), 'fault: green is upside down')
+      const size = await page.locator('.map-doctor figure img').evaluate(async (image) => {
+        await image.decode()
+        return `${image.naturalWidth}x${image.naturalHeight}`
+      })
+      check(size === '256x64', `the evidence has ${size}`)
+      const link = page.locator('.map-doctor a[download="bumps-cured.png"]')
+      const cured = await link.evaluate(async (a) => [...new Uint8Array(await (await fetch(a.href)).arrayBuffer())])
+      await examine('cured.png', Buffer.from(cured), 'no fault was found')
+      await examine('text.png', Buffer.from('no picture'), 'text.png')
+      check(await page.locator('.map-doctor figure').count() === 0, 'a file that is no picture has evidence')
+      await page.close()
+    }
+    return 'a fault, the cured map, no picture'
   },
 
   async share() {

@@ -2,6 +2,7 @@ import DefaultTheme from 'vitepress/theme'
 import { nextTick, onMounted, watch } from 'vue'
 import { useRoute } from 'vitepress'
 import LiveFigure from './LiveFigure.vue'
+import MapDoctor from './MapDoctor.vue'
 import StagePlayer from './StagePlayer.vue'
 import TermIndex from './TermIndex.vue'
 import TryCommands from './TryCommands.vue'
@@ -21,6 +22,7 @@ export default {
   },
   enhanceApp({ app }) {
     app.component('LiveFigure', LiveFigure)
+    app.component('MapDoctor', MapDoctor)
     app.component('StagePlayer', StagePlayer)
     app.component('TermIndex', TermIndex)
     app.component('TryCommands', TryCommands)

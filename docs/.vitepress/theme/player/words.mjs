@@ -11,11 +11,11 @@ const en = {
   frame: (ms, w, h) => `${w} × ${h} in ${ms} ms`, tried: 'shown above', edit: 'edit this shader',
   editorLabel: (file) => `Editor of ${file}`, compile: 'compile (Ctrl+Enter)', compiling: 'compiling …', restore: 'as it was', compiled: (ms) => `compiled in ${(ms / 1000).toFixed(1)} s`,
   errors: (n) => n === 1 ? 'one error' : `${n} errors`, loadingCompiler: (mb, of) => `loading the compiler: ${mb} of ${of} MB, once`,
-  exercise: 'exercise', noExercise: 'the stage itself', solved: 'Solved, bit for bit.', solvedTo: (n) => n === 1 ? 'Solved, to one code of 255.' : `Solved, to ${n} codes of 255.`,
-  asGiven: 'This is the file as it is given: fill the gap.', unknownMistake: (n) => `Not solved, and none of the ${n} known mistakes gives this picture, bit for bit.`,
-  bitForBit: 'Your picture is, bit for bit, what that gives.', openExercise: 'This exercise is open: many pictures are right. ./relief check-exercise measures what was asked for.',
+  exercise: 'exercise', noExercise: 'the stage itself', verdicts: {},
   editorHint: 'This is the stage’s own file. It is compiled here, in your browser, by clang; nothing is sent anywhere.',
   edited: (hash, isGolden) => isGolden ? `Your shader gives the golden, bit for bit: hash ${hash}.` : `Your shader’s picture at rest has the hash ${hash}.`,
+  doctorHint: 'Choose a map, or drop one here. It is examined in your browser, and sent nowhere.', examining: 'examining …', curedMap: 'the cured map',
+  doctorFiles: { map: 'the map', heights: 'the heights that it was made of, if you have them', mesh: 'the mesh that it is for, if you have it' },
   endless: 'The shader did not end within 20 s and was stopped. Look for a loop that does not end.'
 }
 const zh = {
@@ -30,11 +30,11 @@ const zh = {
   frame: (ms, w, h) => `${w} × ${h}，${ms} 毫秒`, tried: '已在上方显示', edit: '编辑此着色器',
   editorLabel: (file) => `${file} 的编辑器`, compile: '编译（Ctrl+Enter）', compiling: '正在编译……', restore: '恢复原样', compiled: (ms) => `编译用时 ${(ms / 1000).toFixed(1)} 秒`,
   errors: (n) => `${n} 个错误`, loadingCompiler: (mb, of) => `正在载入编译器：${mb} / ${of} MB，只需一次`,
-  exercise: '练习', noExercise: '步骤本身', solved: '做对了，逐位相同。', solvedTo: (n) => `做对了，误差不超过 255 个编码值中的 ${n} 个。`,
-  asGiven: '这是给出的文件：请填上空缺。', unknownMistake: (n) => `还没有做对，而且 ${n} 种已知的错误里没有一种逐位给出这张图。`,
-  bitForBit: '你的图与此逐位相同。', openExercise: '这是开放的练习：对的图有许多。./relief check-exercise 会测量所要求的东西。',
+  exercise: '练习', noExercise: '步骤本身', verdicts: { solved: '做对了，逐位相同。', start: '这是给出的文件：请填上空缺。' },
   editorHint: '这是此步骤自己的源文件。它由 clang 在你的浏览器里编译，不会发送到任何地方。',
   edited: (hash, isGolden) => isGolden ? `你的着色器与基准图逐位相同：哈希 ${hash}。` : `你的着色器静止时画面的哈希是 ${hash}。`,
+  doctorHint: '选择一张贴图，或把它拖到这里。它在你的浏览器里检查，不会发送到任何地方。', examining: '正在检查……', curedMap: '治好的贴图',
+  doctorFiles: { map: '贴图', heights: '它由之做成的高度图（如果有）', mesh: '它所属的网格（如果有）' },
   endless: '着色器在 20 秒内没有结束，已被停止。请检查是否有不会结束的循环。'
 }
 export const wordsOf = (lang) => lang.startsWith('zh') ? zh : en
