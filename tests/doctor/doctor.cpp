@@ -27,6 +27,18 @@ const std::vector<SoundMap>& maps()
     return all;
 }
 
+// On which faults are made: a picture, a picture and domes are enough for the sanitizers.
+std::vector<const SoundMap*> trials()
+{
+    std::vector<const SoundMap*> chosen;
+#ifdef RELIEF_SHORT_TESTS
+    for (const std::size_t i : {0u, 1u, 6u}) chosen.push_back(&maps()[i]);
+#else
+    for (const SoundMap& map : maps()) chosen.push_back(&map);
+#endif
+    return chosen;
+}
+
 }  // namespace
 
 TEST_CASE("doctor: a sound map has no fault, and heights that give it")
@@ -47,7 +59,8 @@ TEST_CASE("doctor: 95 of 100 single faults are named, and nine of ten in pairs")
 {
     const auto examine = [](const std::vector<MadeFault>& made, double least) {
         int named = 0, asked = 0, others = 0;
-        for (const SoundMap& map : maps()) {
+        for (const SoundMap* const one : trials()) {
+            const SoundMap& map = *one;
             for (const MadeFault& fault : made) {
                 Given given;
                 if (fault.givesHeights) given.heights = map.heights;
@@ -72,7 +85,8 @@ TEST_CASE("doctor: 95 of 100 single faults are named, and nine of ten in pairs")
 
 TEST_CASE("doctor: what it cures is the map as it was, but for rounding")
 {
-    for (const SoundMap& map : maps()) {
+    for (const SoundMap* const one : trials()) {
+        const SoundMap& map = *one;
         const Image8 right = codesOf(map);
         for (const MadeFault& fault : singleFaults()) {
             // Of what was decoded, dark codes are lost; of others the strength is, or the texels.
