@@ -448,8 +448,9 @@ int runProgram(int argc, char** argv, const Program& program)
         ->type_name("I/N");
     command->callback([&] { run("gallery", program.gallery, folder, shard, options.threads); });
 
-    command = app.add_subcommand(
-        "view", "Shows a stage in a window, and again whenever its file is saved, or a scene of a .gltf or .glb file");
+    command = app.add_subcommand("view",
+                                 "Shows a stage in a window, and again whenever its file is saved, or a file: a .gltf "
+                                 "or .glb scene, or a normal map with what is wrong with it");
     ViewOptions viewOptions;
     addInputOptions(*command, viewOptions.render);
     addShowOption(*command, viewOptions.render.show);

@@ -21,11 +21,10 @@ Expected<int> examineMap(const DoctorOptions& options)
         const Image8 picture = makePicture();
         return writePng(path, picture.width, picture.height, picture.pixels);
     };
-    for (const Expected<void>& written : {write(options.fix, [&] { return pictureOf(d.cured); }),
-                                          write(options.evidence, [&] { return evidencePicture(*all); }),
-                                          write(options.writtenHeights, [&] { return heightsPicture(d.heights); })}) {
-        if (!written) return tl::unexpected(written.error());
-    }
+    Expected<void> written = write(options.fix, [&] { return pictureOf(d.cured); });
+    if (written) written = write(options.evidence, [&] { return evidencePicture(*all); });
+    if (written) written = write(options.writtenHeights, [&] { return heightsPicture(d.heights); });
+    if (!written) return tl::unexpected(written.error());
     std::string text = options.json ? jsonOf(*all) : textOf(*all);
     if (!options.json && !options.evidence.empty()) text += options.evidence + ": " + evidenceWords(*all) + "\n";
     std::fputs(text.c_str(), stdout);

@@ -1,7 +1,7 @@
 // The doctor in the window: what a map of the stage's is, what is wrong with it, and the cured map in its place.
 // Another process examines it, a second for a million texels.
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
 
 #include <imgui.h>
 
@@ -49,6 +49,11 @@ bool Interface::updateDoctor()
     if (examination) {
         const Expected<Pixels> seen = *examination ? readPixels(**examination) : tl::unexpected(examination->error());
         examined.words = seen ? doctor.said() : seen.error().message;
+        if (seen) {
+            examined.words.replace(examined.words.rfind(**examination), (**examination).size(), "below");
+            std::error_code ignored;
+            std::filesystem::remove(**examination, ignored);
+        }
         examined.isCurable = examined.words.find("--fix") != std::string::npos;
         if (seen) {
             const auto width = static_cast<int>(points(kWidth));
