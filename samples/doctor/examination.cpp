@@ -26,9 +26,8 @@ Expected<Channels> readChannels(const std::string& file)
 
 Expected<std::vector<Mesh>> readMeshes(const std::string& file)
 {
-    const std::string ending = utf8Of(pathOf(file).extension());
     std::vector<Mesh> meshes;
-    if (ending == ".gltf" || ending == ".glb") {
+    if (hasEnding(file, {".gltf", ".glb"})) {
         Expected<SceneFile> scene = readGltf(file);
         if (!scene) return tl::unexpected(scene.error());
         meshes = std::move(scene->meshes);

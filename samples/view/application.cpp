@@ -1,11 +1,9 @@
 #include "view/application.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include <SDL.h>
 
 #include "prepare.h"
+#include "relief/path.h"
 
 namespace relief::samples {
 
@@ -14,15 +12,9 @@ namespace {
 constexpr int kRest = 4;  // frames after an event, until what Dear ImGui shows of it no longer changes: a tab, chosen
                           // by a button, has its contents in the third and their size in the fourth
 
-bool endsWithOneOf(std::string file, std::initializer_list<const char*> endings)
-{
-    for (char& c : file) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return file.ends_with(ending); });
-}
-
 bool isPicture(const std::string& file)
 {
-    return endsWithOneOf(file, {".png", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr", ".pfm"});
+    return hasEnding(file, {".png", ".jpg", ".jpeg", ".tga", ".bmp", ".hdr", ".pfm"});
 }
 
 // A file in place of a stage is shown by a stage: a scene by one that is there for it, a normal map by 1.12.
@@ -33,7 +25,7 @@ ViewOptions withStage(ViewOptions options)
         options.render.files.textures[TextureSlot::normal] = stage;
         options.render.settings.emplace_back("bumpScale=1");
         stage = "1.12";
-    } else if (endsWithOneOf(stage, {".glb", ".gltf"})) {
+    } else if (hasEnding(stage, {".glb", ".gltf"})) {
         options.render.files.mesh = stage;
         stage = live::sampleFolder() + "/view/scene_of_file.cpp";
     }

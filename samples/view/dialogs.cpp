@@ -1,6 +1,5 @@
 // Keys, and what asks before it does something: files to write, files that were dropped, help.
 #include <algorithm>
-#include <cctype>
 
 #include <SDL.h>
 
@@ -12,17 +11,6 @@
 #include "view/style.h"
 
 namespace relief::samples {
-
-namespace {
-
-bool isMesh(const std::string& file)
-{
-    std::string ending = file.size() > 4 ? file.substr(file.size() - 4) : "";
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return ending == ".obj";
-}
-
-}  // namespace
 
 void Interface::press(int key, bool control, bool shift)
 {
@@ -242,7 +230,7 @@ void Interface::dropped()
     if (!beginDialog(Dialog::drop, "A file was dropped")) return;
     const std::string file = droppedFiles.empty() ? "" : droppedFiles.front();
     ImGui::Text("What is %s?", utf8Of(pathOf(file).filename()).c_str());
-    const bool mesh = isMesh(file);
+    const bool mesh = hasEnding(file, {".obj"});
     int count = 0;
     bool answered = false;
     for (const Slot& slot : viewer.slots()) {

@@ -157,7 +157,6 @@ private:
     {
         TextureSlot slot = {};
         std::string file;
-        bool isCurable = false;
         std::string words;    // the diagnosis, or why there is none
         float height = 0.0f;  // of the evidence, in pixels
     } examined;

@@ -27,7 +27,7 @@ const std::vector<SoundMap>& maps()
     return all;
 }
 
-// On which faults are made: a picture, a picture and domes are enough for the sanitizers.
+// On which faults are made: marble, bricks and domes where time is short.
 std::vector<const SoundMap*> trials()
 {
     std::vector<const SoundMap*> chosen;
