@@ -2,6 +2,7 @@
 // that of the named mistake, bit for bit, or else where that mistake changes the very place that was mutated; "unknown"
 // is right where no known mistake changes that place.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -30,6 +31,7 @@ struct Trial
     const Exercise* exercise;
     Mutation mutation;
     std::string result;  // "no picture", "the same", or how the diagnosis is judged: "right, bit for bit" ...
+    double drawn = 0.0, diagnosed = 0.0;  // milliseconds
     Diagnosis diagnosis;
 };
 
@@ -87,10 +89,18 @@ void runOne(Trial& trial, const std::map<std::string, Catalogue>& catalogues, co
 {
     const std::string path = folder + "/" + std::to_string(number) + ".cpp";
     std::ofstream(path, std::ios::binary) << trial.mutation.applied(trial.exercise->answer);
+    using Clock = std::chrono::steady_clock;
+    const auto since = [](Clock::time_point begin) {
+        return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    };
+    Clock::time_point begin = Clock::now();
     const Submission submission = run(path, {.seconds = 5.0});
+    trial.drawn = since(begin);
     trial.result = "no picture";
     if (!submission.picture) return;
+    begin = Clock::now();
     trial.diagnosis = diagnose(*trial.exercise, catalogues.at(trial.exercise->id), *submission.picture);
+    trial.diagnosed = since(begin);
     trial.result = judged(trial);
 }
 
@@ -145,6 +155,26 @@ std::string countsOf(const std::vector<Trial>& trials)
     return text;
 }
 
+// What an answer takes, where it is a wrong one.
+std::string timesOf(const std::vector<Trial>& trials)
+{
+    std::vector<double> drawn, diagnosed;
+    for (const Trial& t : trials) {
+        if (!isWrongAnswer(t)) continue;
+        drawn.push_back(t.drawn);
+        diagnosed.push_back(t.diagnosed);
+    }
+    const auto row = [](const std::string& what, std::vector<double>& times) {
+        std::sort(times.begin(), times.end());
+        char line[64];
+        std::snprintf(line, sizeof line, " | %.1f | %.1f |\n", times[times.size() / 2], times.back());
+        return "| " + what + line;
+    };
+    if (drawn.empty()) return "";
+    return "\n| milliseconds for an answer, several at once | median | longest |\n|---|---|---|\n" +
+           row("compiled and drawn, in a process of its own", drawn) + row("diagnosed", diagnosed);
+}
+
 std::string pageOf(const std::vector<Trial>& trials, const ReportOptions& options)
 {
     std::string rows;
@@ -162,7 +192,7 @@ std::string pageOf(const std::vector<Trial>& trials, const ReportOptions& option
            "exercise: "
            "another sign, number, name, swizzle or function, or a line less. Each such answer is compiled, drawn and "
            "diagnosed as `./relief check-exercise` does it.\n\n" +
-           countsOf(trials) + bounds +
+           countsOf(trials) + timesOf(trials) + bounds +
            " What is unknown is shown the nearest picture as well, with the words that it says little.\n\n## All of "
            "them\n\n"
            "The last two columns: how far the nearest known picture is away, in codes of 255 on average, and the next "
