@@ -9,7 +9,6 @@
 #include "common/inside.h"
 #include "relief/pipeline/instruments.h"
 #include "relief/trace/variable.h"
-#include "trace/command.h"
 
 namespace relief::samples {
 

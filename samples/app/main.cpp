@@ -1,5 +1,6 @@
-// The program relief: pictures of stages, and what can be said of them. Measurements are programs of their own, so that
-// nobody who wants a picture builds them.
+// The program relief, and relief_view, which has no stages: all that is done with a stage, by a command or in the
+// window. Pictures alone have a program without the rest (pictures_main.cpp), and measurements are programs of their
+// own, so that nobody builds them who wants a picture.
 #include "command_line.h"
 #include "commands.h"
 #include "doctor/command.h"

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "live/load.h"
+#include "trace/traced_stage.h"
 
 namespace relief::samples {
 
@@ -88,6 +89,13 @@ Expected<PreparedStage> prepare(const RenderOptions& options)
     const Expected<const Stage*> stage = stageOf(options.stage);
     if (!stage) return tl::unexpected(stage.error());
     return prepare(**stage, options);
+}
+
+Expected<PreparedStage> prepareTraced(const RenderOptions& options)
+{
+    const Expected<trace::TracedStage> stage = trace::loadTraced(options.stage);
+    if (!stage) return tl::unexpected(stage.error());
+    return prepare(*stage->traced, options);
 }
 
 Expected<PreparedStage> prepare(const Stage& stage, const RenderOptions& options)

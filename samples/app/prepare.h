@@ -21,6 +21,9 @@ Expected<const Stage*> stageOf(const std::string& name);
 // The stage that the options name, with their settings and files.
 Expected<PreparedStage> prepare(const RenderOptions& options);
 
+// The same, telling what its lines give: for `render --show NAME@LINE`.
+Expected<PreparedStage> prepareTraced(const RenderOptions& options);
+
 // The same with a stage that is at hand.
 Expected<PreparedStage> prepare(const Stage& stage, const RenderOptions& options);
 

@@ -1,4 +1,5 @@
-// Where there is no Linux, or no source (RELIEF_LIVE=OFF): whatever needs live stages says so, in one line.
+// For programs that compile no stages, and for all of them where there is no Linux, or no source (RELIEF_LIVE=OFF):
+// whatever needs live stages says so, in one line.
 #include "live/load.h"
 #include "live/new_stage.h"
 #include "live/session.h"
@@ -10,8 +11,7 @@ namespace {
 
 tl::unexpected<Error> needsLinux()
 {
-    return fail(
-        "this program compiles no stages: that takes Linux and a clone of Relief's sources, where ./relief does it");
+    return fail("this program compiles no stages: ./relief does it, in a clone of the sources, on Linux");
 }
 
 }  // namespace

@@ -229,13 +229,6 @@ Expected<void> tellDifference(const TraceOptions& options, const Node& life)
 
 }  // namespace
 
-Expected<PreparedStage> prepareTraced(const RenderOptions& options)
-{
-    const Expected<TracedStage> stage = loadTraced(options.stage);
-    if (!stage) return tl::unexpected(stage.error());
-    return prepare(*stage->traced, options);
-}
-
 Expected<void> traceStage(const TraceOptions& options)
 {
     if (options.vertex >= 0) return tellVertex(options);

@@ -10,7 +10,4 @@ namespace relief::samples {
 
 Expected<void> traceStage(const TraceOptions& options);
 
-// The stage that the options name, telling what its lines give: for `render --show NAME@LINE`.
-Expected<PreparedStage> prepareTraced(const RenderOptions& options);
-
 }  // namespace relief::samples
