@@ -1,5 +1,6 @@
 // bench --stage: what drawing a stage costs, and whether another one costs more.
 #include <cstdio>
+#include <optional>
 
 #include "command_line.h"
 #include "cost.h"
@@ -9,16 +10,26 @@ namespace relief::samples {
 
 namespace {
 
-// Draws and measures nothing. The last frame is what an instruction counter is to see.
+// Draws and measures nothing. The last frame is what an instruction counter is to see, passes before the picture
+// included.
 Expected<void> drawFrames(const PreparedStage& stage, Size size, const BenchOptions& options)
 {
     Expected<Framebuffer> target = Framebuffer::create(size.width, size.height, Format::rgba8Srgb);
     if (!target) return tl::unexpected(target.error());
-    Frame frame(*target, {.threads = options.render.threads});
-    stage.record(frame, size.width, size.height);
+    std::optional<Frame> frame;
+    const auto record = [&] {
+        frame.emplace(*target, FrameOptions{.threads = options.render.threads});
+        stage.record(*frame, size.width, size.height);
+    };
+    record();
+    const bool hasPasses = !stage.log->passes.empty();  // before the picture: they are drawn while it is recorded
     Statistics statistics;
-    for (int i = 1; i < options.frames; ++i) frame.run();
-    runCounted([&] { statistics = frame.run(); });
+    const auto draw = [&] {
+        if (hasPasses) record();
+        statistics = frame->run();
+    };
+    for (int i = 1; i < options.frames; ++i) draw();
+    runCounted(draw);
     std::printf("%llu\n", static_cast<unsigned long long>(statistics.pixelsShaded));
     return {};
 }

@@ -16,8 +16,9 @@ namespace {
 using leavesOut::LeftOut;
 
 // A stage of each kind: depth, filters, detail textures, three objects and lights, two passes, three planes, one plane,
-// a pass before the picture.
-constexpr const char* kSwitchedStages[] = {"0.03", "0.04", "1.15", "1.25", "2.06", "3.05", "4.07", "4.11", "5.05"};
+// a pass before the picture, a mirror's pixels that are marked without a colour.
+constexpr const char* kSwitchedStages[] = {"0.03", "0.04", "1.15", "1.25", "2.06",
+                                           "3.05", "4.07", "4.11", "5.05", "5.19"};
 
 struct Switched
 {
@@ -210,15 +211,15 @@ std::string document(const std::vector<Counted>& counted, const std::vector<Swit
 {
     std::string names;
     for (const LeftOut& left : leavesOut::kAll) {
-        names += std::string("| ") + left.name + " | " + left.putBack + " | `engine/" + left.decidedIn + "` |\n";
+        names += std::string("| ") + left.name + " | " + left.putBack + " | `engine/relief/" + left.decidedIn + "` |\n";
     }
     std::string savings = "Not counted: `./relief report leave-out` builds the programs for it.\n";
     if (!switched.empty()) {
         savings =
-            "Instructions per fragment of a whole frame, counted by valgrind (x86-64-v3, 8 lanes, one thread): of "
-            "an ordinary build; of one in which what is left out can be put back (`cmake --preset switchable`), "
-            "with nothing put back; and how many more it takes with one thing put back, and with all. A "
-            "minus: looking whether a thing can be left out costs a little where it cannot. The "
+            "Instructions per fragment of a whole frame, with the passes before the picture, such as shadow maps, "
+            "counted by valgrind (x86-64-v3, 8 lanes, one thread): of an ordinary build; of one in which what is left "
+            "out can be put back (`cmake --preset switchable`), with nothing put back; and how many more it takes with "
+            "one thing put back, and with all. A minus: looking whether a thing can be left out costs a little where it cannot. The "
             "pictures are the same to the last bit: the tests named generic.* see to that for every stage.\n\n" +
             savingsTable(switched) + "\n| put back | which means | decided in |\n|---|---|---|\n" + names +
             "\n![What leaving out saves](leave-out.svg)\n";
