@@ -15,6 +15,8 @@ set boxwidth 0.95 * pitch
 set grid y
 set key outside right top title "stage"
 set linetype 5 linecolor rgb "#8a6d00"  # the default is too pale on white
+set linetype 9 linecolor rgb "#a0a0a0"  # there are eight by default
+set linetype 10 linecolor rgb "#e377c2"
 set ylabel "instructions per fragment, % more"
 set xtics ("" 0) rotate by -30
 do for [n = 1:words(names)] { set xtics add (word(names, n) n) }

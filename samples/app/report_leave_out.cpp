@@ -219,7 +219,8 @@ std::string document(const std::vector<Counted>& counted, const std::vector<Swit
             "Instructions per fragment of a whole frame, with the passes before the picture, such as shadow maps, "
             "counted by valgrind (x86-64-v3, 8 lanes, one thread): of an ordinary build; of one in which what is left "
             "out can be put back (`cmake --preset switchable`), with nothing put back; and how many more it takes with "
-            "one thing put back, and with all. A minus: looking whether a thing can be left out costs a little where it cannot. The "
+            "one thing put back, and with all. A minus: looking whether a thing can be left out costs a little where "
+            "it cannot. The "
             "pictures are the same to the last bit: the tests named generic.* see to that for every stage.\n\n" +
             savingsTable(switched) + "\n| put back | which means | decided in |\n|---|---|---|\n" + names +
             "\n![What leaving out saves](leave-out.svg)\n";
