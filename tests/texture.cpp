@@ -271,6 +271,24 @@ TEST_CASE("texture: levels that somebody makes are made when asked for, in order
     CHECK(!Texture::fromLevels(TexelFormat::rgba8, 4, 16385, make));
 }
 
+TEST_CASE("texture: a level's texels are zero, whatever was in its memory")
+{
+    constexpr int kSide = 40;
+    for (int i = 0; i < 3; ++i) {
+        MipLevel used = MipLevel::forOverwrite(TexelFormat::rgba8, kSide, kSide);
+        for (int y = 0; y < kSide; ++y) std::fill_n(used.texel<std::uint8_t>(0, y), 4 * kSide, std::uint8_t{255});
+        used.fillFrame();
+        CHECK(used.isOpaque());
+        used = MipLevel(TexelFormat::rgba8, 1, 1);  // its memory is free
+        const MipLevel level(TexelFormat::rgba8, kSide, kSide);
+        int written = 0;
+        for (int y = -1; y <= kSide; ++y) {
+            for (int x = -1; x <= kSide; ++x) written += *level.texel<std::uint32_t>(x, y) != 0;
+        }
+        CHECK(written == 0);
+    }
+}
+
 TEST_CASE("texture: what makes levels is dropped with the last of them, and one texel is made at once")
 {
     const auto held = std::make_shared<int>(0);

@@ -275,12 +275,12 @@ std::vector<samples::Object> SceneData::objects() const
     return all;
 }
 
-// The last frame's copies go first, so that there are never two of each.
+// The last frame's copy goes first, so that there are never two, and the next one has its memory.
 Expected<void> EarlierPass::run()
 {
     frame.run();
-    for (std::optional<Texture>& texture : textures) texture.reset();
     for (std::size_t i = 0; i < textures.size(); ++i) {
+        textures[i].reset();
         Expected<Texture> made = textureOf(target, static_cast<int>(i));
         if (!made) return tl::unexpected(made.error());
         textures[i].emplace(std::move(*made));

@@ -132,15 +132,25 @@ std::uint64_t levelBytes(TexelFormat format, int width, int height)
     return rowBytes * static_cast<std::uint64_t>(height + 2);
 }
 
-MipLevel::MipLevel(TexelFormat format, int width, int height)
-    : texelFormat(format),
+MipLevel::MipLevel(Unset, TexelFormat format, int width, int height)
+    : lines(static_cast<std::size_t>(levelBytes(format, width, height) / kCacheLine)),
+      texelFormat(format),
       columns(width),
       rows(height),
       stride(paddedRowTexels(format, width)),
       texelBytes(static_cast<std::size_t>(bytesPerTexel(format))),
       strideInBytes(static_cast<std::size_t>(stride) * texelBytes)
 {
-    lines.resize(static_cast<std::size_t>(levelBytes(format, width, height) / kCacheLine));
+}
+
+MipLevel::MipLevel(TexelFormat format, int width, int height) : MipLevel(Unset{}, format, width, height)
+{
+    std::memset(lines.data()->bytes, 0, lines.size() * kCacheLine);
+}
+
+MipLevel MipLevel::forOverwrite(TexelFormat format, int width, int height)
+{
+    return MipLevel(Unset{}, format, width, height);
 }
 
 void MipLevel::fillFrame()
@@ -150,13 +160,14 @@ void MipLevel::fillFrame()
         std::memcpy(base + offset(toX, toY) * texelBytes, base + offset(fromX, fromY) * texelBytes,
                     texelsToCopy * texelBytes);
     };
+    const std::size_t framedBytes = static_cast<std::size_t>(width() + 2) * texelBytes;
     for (int y = 0; y < height(); ++y) {
         copy(-1, y, width() - 1, y, 1);
         copy(width(), y, 0, y, 1);
+        std::memset(base + offset(-1, y) * texelBytes + framedBytes, 0, strideInBytes - framedBytes);
     }
-    const auto framedRow = static_cast<std::size_t>(width() + 2);
-    copy(-1, -1, -1, height() - 1, framedRow);
-    copy(-1, height(), -1, 0, framedRow);
+    copy(-1, -1, -1, height() - 1, static_cast<std::size_t>(stride));
+    copy(-1, height(), -1, 0, static_cast<std::size_t>(stride));
     opaque = (texelFormat == TexelFormat::rgba8 && hasFullAlpha<std::uint8_t>(*this)) ||
              (texelFormat == TexelFormat::rgba16 && hasFullAlpha<std::uint16_t>(*this));
 }
@@ -164,7 +175,7 @@ void MipLevel::fillFrame()
 MipLevel coarserLevel(TexelFormat format, const MipLevel& fine)
 {
     const DefaultFloatingPoint environment;
-    MipLevel coarse(format, nextSide(fine.width()), nextSide(fine.height()));
+    MipLevel coarse = MipLevel::forOverwrite(format, nextSide(fine.width()), nextSide(fine.height()));
     switch (format) {
         case TexelFormat::rgba8:
             averageLevel<std::uint8_t>(fine, coarse);

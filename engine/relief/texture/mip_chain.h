@@ -55,6 +55,10 @@ public:
     // All texels zero. Sides are in 1..kMaxTextureSide.
     MipLevel(TexelFormat format, int width, int height);
 
+    // Texels are not set: for who writes them all, and then fills the frame. To zero a level takes as long as to copy
+    // it.
+    static MipLevel forOverwrite(TexelFormat format, int width, int height);
+
     int width() const { return columns.texels; }
     int height() const { return rows.texels; }
     const TextureSide& sideU() const { return columns; }
@@ -82,7 +86,8 @@ public:
         return reinterpret_cast<const Channel*>(lines.data()->bytes) + offset(x, y) * (texelBytes / sizeof(Channel));
     }
 
-    // Copies the texels of each side to the frame on the opposite one. To be called once all texels are written.
+    // Copies the texels of each side to the frame on the opposite one; what pads a row is 0. To be called once all
+    // texels are written.
     void fillFrame();
 
     // Whether alpha is 1 in every texel of a UNORM level, known from fillFrame() on: a fetch then leaves alpha out.
@@ -91,8 +96,14 @@ public:
 private:
     struct alignas(64) CacheLine
     {
+        CacheLine() {}  // sets nothing
         std::byte bytes[64];
     };
+    struct Unset
+    {
+    };
+
+    MipLevel(Unset, TexelFormat format, int width, int height);
 
     std::size_t offset(int x, int y) const
     {

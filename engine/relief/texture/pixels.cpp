@@ -11,21 +11,40 @@
 namespace relief {
 namespace {
 
-// Copies pixels, turned upside down and converted one by one: convert(pixel, texel) reads and writes all channels.
-template <class Channel, class Source, class Convert>
-MipLevel importPixels(TexelFormat format, int width, int height, const Source* rgba, Convert convert)
+// Turns pixels upside down, row by row: fill(from, to, texels) writes all channels of a row.
+template <class Channel, class Source, class Fill>
+MipLevel importRows(TexelFormat format, int width, int height, const Source* pixels, Fill fill)
 {
-    MipLevel level(format, width, height);
-    const int channels = channelsPerTexel(format);
-    for (int y = height; y-- > 0;) {
-        Channel* texel = level.texel<Channel>(0, y);
-        for (int x = 0; x < width; ++x, rgba += channels, texel += channels) convert(rgba, texel);
+    MipLevel level = MipLevel::forOverwrite(format, width, height);
+    for (int y = height; y-- > 0; pixels += width * channelsPerTexel(format)) {
+        fill(pixels, level.texel<Channel>(0, y), width);
     }
     level.fillFrame();
     return level;
 }
 
-constexpr auto kCopyTexel = [](const auto* from, auto* to) { std::copy_n(from, 4, to); };
+// As they are.
+template <class Channel>
+MipLevel copyPixels(TexelFormat format, int width, int height, std::span<const Channel> pixels)
+{
+    const int channels = channelsPerTexel(format);
+    return importRows<Channel>(format, width, height, pixels.data(), [channels](auto* from, auto* to, int texels) {
+        std::copy_n(from, texels * channels, to);
+    });
+}
+
+// sRGB to 16 bits of linear light, by these two functions of a code.
+template <class Code, class Color, class Alpha>
+MipLevel decodePixels(int width, int height, std::span<const Code> rgba, Color color, Alpha alpha)
+{
+    return importRows<std::uint16_t>(TexelFormat::rgba16, width, height, rgba.data(),
+                                     [&](const Code* from, std::uint16_t* to, int texels) {
+                                         for (; texels-- > 0; from += 4, to += 4) {
+                                             for (int c = 0; c < 3; ++c) to[c] = color(from[c]);
+                                             to[3] = alpha(from[3]);
+                                         }
+                                     });
+}
 
 }  // namespace
 
@@ -59,39 +78,28 @@ TexelFormat formatOf(const ImageFile& picture, ColorSpace meaning)
 
 MipLevel levelFromRgba8(int width, int height, std::span<const std::uint8_t> rgba, ColorSpace meaning)
 {
-    if (meaning == ColorSpace::linear) {
-        return importPixels<std::uint8_t>(TexelFormat::rgba8, width, height, rgba.data(), kCopyTexel);
-    }
+    if (meaning == ColorSpace::linear) return copyPixels(TexelFormat::rgba8, width, height, rgba);
     std::array<std::uint16_t, 256> table;
     for (std::size_t i = 0; i < table.size(); ++i) table[i] = srgbToLinear16(static_cast<std::uint8_t>(i));
-    const auto decode = [&table](const std::uint8_t* from, std::uint16_t* to) {
-        for (int c = 0; c < 3; ++c) to[c] = table[from[c]];
-        to[3] = static_cast<std::uint16_t>(from[3] * 257);
-    };
-    return importPixels<std::uint16_t>(TexelFormat::rgba16, width, height, rgba.data(), decode);
+    return decodePixels(
+        width, height, rgba, [&table](std::uint8_t code) { return table[code]; },
+        [](std::uint8_t code) { return static_cast<std::uint16_t>(code * 257); });
 }
 
 MipLevel levelFromRgba16(int width, int height, std::span<const std::uint16_t> rgba, ColorSpace meaning)
 {
-    if (meaning == ColorSpace::linear) {
-        return importPixels<std::uint16_t>(TexelFormat::rgba16, width, height, rgba.data(), kCopyTexel);
-    }
-    const auto decode = [](const std::uint16_t* from, std::uint16_t* to) {
-        for (int c = 0; c < 3; ++c) to[c] = decodeSrgb16(from[c]);
-        to[3] = from[3];
-    };
-    return importPixels<std::uint16_t>(TexelFormat::rgba16, width, height, rgba.data(), decode);
+    if (meaning == ColorSpace::linear) return copyPixels(TexelFormat::rgba16, width, height, rgba);
+    return decodePixels(width, height, rgba, decodeSrgb16, [](std::uint16_t code) { return code; });
 }
 
 MipLevel levelFromRgbaFloat(int width, int height, std::span<const float> rgba)
 {
-    return importPixels<float>(TexelFormat::rgba32Float, width, height, rgba.data(), kCopyTexel);
+    return copyPixels(TexelFormat::rgba32Float, width, height, rgba);
 }
 
 MipLevel levelFromRed(int width, int height, std::span<const float> red)
 {
-    const auto copy = [](const float* from, float* to) { *to = *from; };
-    return importPixels<float>(TexelFormat::r32Float, width, height, red.data(), copy);
+    return copyPixels(TexelFormat::r32Float, width, height, red);
 }
 
 MipLevel levelFromPicture(const ImageFile& picture, ColorSpace meaning)
