@@ -275,7 +275,7 @@ std::vector<samples::Object> SceneData::objects() const
     return all;
 }
 
-// The last frame's copy goes first, so that there are never two, and the next one has its memory.
+// The last frame's copy goes first, so that there are never two of an attachment.
 Expected<void> EarlierPass::run()
 {
     frame.run();
