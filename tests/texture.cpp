@@ -225,7 +225,6 @@ TEST_CASE("texture: the frame repeats the opposite side, rows take an odd number
                 }
             }
             REQUIRE(level.rowBytes() % 64 == 0);
-            REQUIRE(reinterpret_cast<std::uintptr_t>(level.texels()) % 64 == 0);
             REQUIRE(level.rowBytes() / 64 % 2 == 1);
             REQUIRE(level.rowTexels() >= level.width() + 2);
             REQUIRE(level.texels() == reinterpret_cast<const std::byte*>(level.texel<std::uint8_t>(-1, -1)));

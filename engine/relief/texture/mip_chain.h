@@ -7,8 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <new>
 #include <vector>
 
 #include "relief/texture/address.h"
@@ -49,39 +47,6 @@ constexpr int nextSide(int side)
 {
     return side > 1 ? side / 2 : 1;
 }
-
-// Memory that begins with a cache line. The C library finds aligned memory by asking for more than it keeps, so that a
-// freed level is too small for the next one of its size: each copy of a target would be in new pages, which the system
-// zeroes first.
-template <class T>
-struct CacheLineAllocator
-{
-    using value_type = T;
-    static constexpr std::size_t kLine = 64;  // bytes
-
-    CacheLineAllocator() = default;
-    template <class Other>
-    CacheLineAllocator(const CacheLineAllocator<Other>&)
-    {
-    }
-
-    T* allocate(std::size_t count)
-    {
-        void* const block = ::operator new(count * sizeof(T) + kLine);
-        const std::size_t unaligned = reinterpret_cast<std::uintptr_t>(block) % kLine;
-        std::byte* const first = static_cast<std::byte*>(block) + (kLine - unaligned);
-        std::memcpy(first - sizeof(block), &block, sizeof(block));  // for deallocate()
-        return reinterpret_cast<T*>(first);
-    }
-    void deallocate(T* first, std::size_t)
-    {
-        void* block;
-        std::memcpy(&block, reinterpret_cast<std::byte*>(first) - sizeof(block), sizeof(block));
-        ::operator delete(block);
-    }
-
-    friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
-};
 
 // Lane addresses are made of these fields, so that a fetch computes as little as possible per level.
 class MipLevel
@@ -129,7 +94,7 @@ public:
     bool isOpaque() const { return opaque; }
 
 private:
-    struct CacheLine
+    struct alignas(64) CacheLine
     {
         CacheLine() {}  // sets nothing
         std::byte bytes[64];
@@ -145,7 +110,7 @@ private:
         return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(x + 1);
     }
 
-    std::vector<CacheLine, CacheLineAllocator<CacheLine>> lines;
+    std::vector<CacheLine> lines;
     TexelFormat texelFormat;
     TextureSide columns, rows;
     int stride;
