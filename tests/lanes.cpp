@@ -178,6 +178,23 @@ struct Memory
 
 }  // namespace
 
+TEST_CASE("permute: any lane from any other, floats and integers")
+{
+    RandomBits random;
+    for (int round = 0; round < 100; ++round) {
+        Int values, from;
+        for (int i = 0; i < kLanes; ++i) {
+            values.set(i, static_cast<std::int32_t>(random()));
+            from.set(i, static_cast<std::int32_t>(random() % kLanes));
+        }
+        const Int integers = permute(values, from), floats = asInt(permute(asFloat(values), from));
+        for (int i = 0; i < kLanes; ++i) {
+            CHECK(integers[i] == values[from[i]]);
+            CHECK(floats[i] == values[from[i]]);
+        }
+    }
+}
+
 TEST_CASE("loadTransposed: word k of every lane's address")
 {
     const Memory memory;

@@ -23,6 +23,7 @@ namespace relief::leavesOut {
     each(clipping, "pipeline/setup.cpp", "every triangle goes through the clipper")                         \
     each(tiles, "pipeline/frame.cpp", "tiles without triangles are drawn in tile memory")                   \
     each(hidden, "pipeline/draw.cpp", "hidden pixels are shaded")                                           \
+    each(emptyQuads, "pipeline/draw.cpp", "a block with few live quads runs by itself")                     \
     each(colors, "pipeline/draw.cpp", "programs run where no target keeps their colours")
 // clang-format on
 

@@ -168,6 +168,12 @@ inline Int truncateToInt(Float a)
     return Int(native::truncateToInt(clamp(a, -2147483520.0f, 2147483520.0f).value));
 }
 
+// Lane i of the result is lane from[i] of a, in 0..kLanes - 1.
+inline Float permute(Float a, Int from)
+{
+    return Float(native::permute(a.value, from.value));
+}
+
 // Rearranges every quad (upper left, upper right, lower left, lower right): its lane k becomes its lane a<k>.
 template <int a0, int a1, int a2, int a3>
 Float permuteQuad(Float a)

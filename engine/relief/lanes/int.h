@@ -131,6 +131,12 @@ inline Int fromRows(Int a)
     (std::make_integer_sequence<int, kLanes>());
 }
 
+// Lane i of the result is lane from[i] of a, in 0..kLanes - 1.
+inline Int permute(Int a, Int from)
+{
+    return Int(native::permute(a.value, from.value));
+}
+
 // Every lane's pixel, counted from the block's upper left one.
 inline Int laneXs()
 {

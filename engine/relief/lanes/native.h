@@ -122,6 +122,20 @@ inline FloatVector permuteQuad(FloatVector a)
     return shuffleQuads<k0, k1, k2, k3>(a, a);
 }
 
+// Lane i of the result is lane from[i] of a, in 0..kLanes - 1.
+#if RELIEF_LANES == 4
+inline IntVector permute(IntVector a, IntVector from)
+{
+    IntVector r = a;
+    for (int i = 0; i < kLanes; ++i) r[i] = a[from[i]];
+    return r;
+}
+inline FloatVector permute(FloatVector a, IntVector from)
+{
+    return (FloatVector)permute((IntVector)a, from);
+}
+#endif
+
 inline QuadVector loadQuad(const std::byte* address)
 {
     QuadVector r;
@@ -131,9 +145,9 @@ inline QuadVector loadQuad(const std::byte* address)
 
 }  // namespace relief::inline RELIEF_WIDTH::native
 
-// Each of these files has: select; min, max, maxOrNaN; signBits, maskBits; sqrt, floor, roundToInt; lowToDouble,
-// highToDouble, toFloat, negativeBits; insertQuad, storeQuads, loadTwoHalves; multiplyAddHalves. RELIEF_PORTABLE
-// takes the plain loops on any machine.
+// Each of these files has: select; min, max, maxOrNaN; signBits, maskBits; sqrt, floor, roundToInt; permute, where
+// there is more than a quad; lowToDouble, highToDouble, toFloat, negativeBits; insertQuad, storeQuads, loadTwoHalves;
+// multiplyAddHalves. RELIEF_PORTABLE takes the plain loops on any machine.
 #if RELIEF_LANES == 16
 #include "relief/lanes/native_avx512.h"
 #elif RELIEF_LANES == 8

@@ -60,6 +60,16 @@ inline IntVector roundToInt(FloatVector a)
     return (IntVector)_mm256_cvtps_epi32((__m256)a);
 }
 
+// Lane i of the result is lane from[i] of a, in 0..kLanes - 1.
+inline FloatVector permute(FloatVector a, IntVector from)
+{
+    return (FloatVector)_mm256_permutevar8x32_ps((__m256)a, (__m256i)from);
+}
+inline IntVector permute(IntVector a, IntVector from)
+{
+    return (IntVector)_mm256_permutevar8x32_epi32((__m256i)a, (__m256i)from);
+}
+
 inline DoubleVector lowToDouble(IntVector a)
 {
     return (DoubleVector)_mm256_cvtepi32_pd(_mm256_castsi256_si128((__m256i)a));

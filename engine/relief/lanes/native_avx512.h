@@ -107,6 +107,16 @@ inline IntVector roundToInt(FloatVector a)
     return (IntVector)_mm512_cvtps_epi32((__m512)a);
 }
 
+// Lane i of the result is lane from[i] of a, in 0..kLanes - 1.
+inline FloatVector permute(FloatVector a, IntVector from)
+{
+    return (FloatVector)_mm512_permutexvar_ps((__m512i)from, (__m512)a);
+}
+inline IntVector permute(IntVector a, IntVector from)
+{
+    return (IntVector)_mm512_permutexvar_epi32((__m512i)from, (__m512i)a);
+}
+
 inline DoubleVector lowToDouble(IntVector a)
 {
     return (DoubleVector)_mm512_cvtepi32_pd(_mm512_castsi512_si256((__m512i)a));

@@ -21,7 +21,8 @@ struct OwnProgram
     }
 };
 
-// `Watcher` is made of a draw and its OwnProgram; `shadeBlocks` gets it as its program.
+// `Watcher` is made of a draw and its OwnProgram; `shadeBlocks` gets it as its program,
+// and no shared blocks.
 template <class Watcher>
 class ExchangedPrograms
 {
@@ -37,6 +38,7 @@ public:
             Draw& draw = frame.draws[d];
             tables[d] = *draw.programs;
             tables[d].shadeBlocks = shadeBlocks;
+            tables[d].shares = false;
             own.push_back(draw.programs);
             watchers.push_back(make(draw, OwnProgram{draw.programs, draw.fragmentProgram.get()}));
             draw.programs = &tables[d];

@@ -12,6 +12,7 @@
 #include "relief/hlsl/signature.h"
 #include "relief/pipeline/interpolate.h"
 #include "relief/pipeline/raster.h"
+#include "relief/pipeline/shared_block.h"
 #include "relief/texture/shading_scope.h"
 
 namespace relief::inline RELIEF_WIDTH {
@@ -58,7 +59,26 @@ struct ShadedBlock
     int index;                                 // in the tile
     CoveredBlock covered;                      // its coverage: the lanes whose pixel's centre is in the triangle
     SampleCoverage liveSamples;                // where a pixel has several: of each, the lanes where it counts
+
+    // Of a shared block (shared_block.h), of which `covered` says only that it is one: the blocks whose live quads it
+    // has, those of the first one first.
+    static constexpr std::uint16_t kShared = 0xffff;  // covered.triangle
+    ShadedBlock* group;
+    std::array<std::uint8_t, kQuads> parts;  // places in the group
+    std::uint8_t partCount;
 };
+
+// Calls visit(part, its way) for each part of a shared block.
+template <class Visit>
+void forEachPart(const ShadedBlock& shared, const Visit& visit)
+{
+    int taken = 0;
+    for (std::size_t i = 0; i < shared.partCount; ++i) {
+        ShadedBlock& part = shared.group[shared.parts[i]];
+        visit(part, WayOfQuads(part.quads, taken));
+        taken += countBits(part.quads);
+    }
+}
 
 // The components of a triangle's three corners, and which side of it is seen.
 struct TriangleCorners
@@ -92,12 +112,13 @@ struct Programs
     Fields vertexData, interpolators;
     int components;  // to interpolate: all but SV_POSITION's
     bool discards;
+    bool shares;  // takes shared blocks
     Outputs outputs;
     ProgramCopier copyVertexProgram, copyFragmentProgram;
 
     void (*shadeVertices)(const void* vertexProgram, VertexLanes& vertices);
 
-    // Blocks of one batch; `corners` has an element for each of its triangles.
+    // Blocks of one batch, or shared ones if the program shares; `corners` has an element for each of its triangles.
     void (*shadeBlocks)(const void* fragmentProgram, std::span<ShadedBlock> blocks, const TriangleBatch& batch,
                         const TriangleCorners* corners);
 };
@@ -219,49 +240,120 @@ RELIEF_FLATTEN void shadeVertices(const void* vertexProgram, VertexLanes& vertic
     });
 }
 
-template <class Interpolators, class FragmentProgram, int components>
-void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle, const TriangleEdges& edges,
-                const CornerComponents<components>& corners, bool isFront, ShadedBlock& block)
+// A part of a shared block's input.
+template <class Interpolators>
+void putInto(Interpolators& shared, Interpolators& part, const WayOfQuads& way)
 {
-    shading.activeLanes = block.quads;
-    const auto input = [&] {
+    const auto put = [&way]<class F>(F& to, F& from) {
+        if constexpr (F::kSystemValue == SystemValue::facing) {
+            to = F(way.there(select(from, Int(1), Int(0)), select(to, Int(1), Int(0))) != 0);
+        } else {
+            using Value = typename F::Value;
+            for (int c = 0; c < kComponents<Value>; ++c) {
+                auto& lanes = component(static_cast<Value&>(to), c);
+                lanes = way.there(component(static_cast<Value&>(from), c), lanes);
+            }
+        }
+    };
+    withFields(shared, [&](auto&... to) { withFields(part, [&](auto&... from) { (put(to, from), ...); }); });
+}
+
+// What a triangle adds to a fragment program's input, and edges where nothing is interpolated.
+template <class Interpolators>
+struct InputOfTriangle
+{
+    static constexpr int kCount = interpolatedComponents(FieldsOf<Interpolators>{});
+
+    CornerComponents<kCount> components;
+    TriangleWeights weights;
+    std::conditional_t<kCount == 0, TriangleEdges, bool> edges;
+    bool isFront;
+
+    void set(const TriangleBatch& batch, const TriangleCorners* corners, int triangle)
+    {
+        const auto& [a, b, c] = corners[triangle].components;
+        isFront = corners[triangle].isFront;
+        components.set(a, b, c);
+        weights.set(batch, triangle);
+        if constexpr (kCount == 0) edges.set(batch, triangle);
+    }
+
+    Interpolators at(const ShadedBlock& block) const
+    {
         Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
         // Where nothing is interpolated, SV_POSITION alone may want to know them: the compiler sees whether it does.
-        if constexpr (components == 0) edges.at(block.covered.x, block.covered.y, edge);
+        if constexpr (kCount == 0) edges.at(block.covered.x, block.covered.y, edge);
         const auto& c = block.centroid;
         const Float centroid[3] = {Float::load(c[0]), Float::load(c[1]), Float::load(c[2])};
-        return interpolate<Interpolators>(triangle, corners, edge, centroid, isFront, block.covered.coverage,
+        return interpolate<Interpolators>(weights, components, edge, centroid, isFront, block.covered.coverage,
                                           block.covered.x, block.covered.y);
-    };
-    if constexpr (FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards) {
-        Discard discard;
-        storeOutputs(program(input(), discard), block);
-        block.discarded = discard.discarded.bits();
-    } else {
-        storeOutputs(program(input()), block);
     }
+};
+
+// The input of shared blocks. Their parts are of few triangles, in any order.
+template <class Interpolators>
+class InputOfShared
+{
+public:
+    Interpolators at(const ShadedBlock& block, const TriangleBatch& batch, const TriangleCorners* corners)
+    {
+        Interpolators shared;
+        forEachPart(block, [&](const ShadedBlock& part, const WayOfQuads& way) {
+            const int triangle = part.covered.triangle;
+            if ((known >> triangle & 1u) == 0) triangles[triangle].set(batch, corners, triangle);
+            known |= 1u << triangle;
+            Interpolators its = triangles[triangle].at(part);
+            putInto(shared, its, way);
+        });
+        return shared;
+    }
+
+private:
+    unsigned known = 0;
+    InputOfTriangle<Interpolators> triangles[kLanes];
+};
+
+// Whether a program runs on shared blocks. Not with nothing to interpolate, when it is soon done; and not where it
+// decides which pixels are drawn, for then it runs block by block.
+template <class Interpolators, class FragmentProgram>
+constexpr bool sharesBlocks()
+{
+    using Types = FragmentTypesOf<FragmentProgram, Interpolators>;
+    constexpr Outputs outputs = outputsOf<typename Types::Result>();
+    return kQuads > 1 && interpolatedComponents(FieldsOf<Interpolators>{}) > 0 && !Types::kDiscards && !outputs.depth &&
+           !outputs.coverage;
 }
+template <class Interpolators, class FragmentProgram>
+inline constexpr bool kShares = sharesBlocks<Interpolators, FragmentProgram>();
 
 template <class Interpolators, class FragmentProgram>
 RELIEF_FLATTEN void shadeBlocks(const void* fragmentProgram, std::span<ShadedBlock> blocks, const TriangleBatch& batch,
                                 const TriangleCorners* corners)
 {
     const FragmentProgram& program = *static_cast<const FragmentProgram*>(fragmentProgram);
-    CornerComponents<interpolatedComponents(FieldsOf<Interpolators>{})> components;
-    TriangleWeights triangle;
-    TriangleEdges edges;
+    InputOfTriangle<Interpolators> triangle;
+    InputOfShared<Interpolators> inputOfShared;
     ShadedBlock* next = blocks.data();
     ShadedBlock* const end = next + blocks.size();
     while (next != end) {
         const int current = next->covered.triangle;
-        const auto& [a, b, c] = corners[current].components;
-        const bool isFront = corners[current].isFront;
-        components.set(a, b, c);
-        triangle.set(batch, current);
-        if constexpr (components.kCount == 0) edges.set(batch, current);
+        const bool isShared = kShares<Interpolators, FragmentProgram> && current == ShadedBlock::kShared;
+        Interpolators shared;
+        if (isShared)
+            shared = inputOfShared.at(*next, batch, corners);
+        else
+            triangle.set(batch, corners, current);
         do {
-            shadeBlock<Interpolators>(program, triangle, edges, components, isFront, *next);
-        } while (++next != end && next->covered.triangle == current);
+            const auto input = [&] { return isShared ? shared : triangle.at(*next); };
+            shading.activeLanes = next->quads;
+            if constexpr (FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards) {
+                Discard discard;
+                storeOutputs(program(input(), discard), *next);
+                next->discarded = discard.discarded.bits();
+            } else {
+                storeOutputs(program(input()), *next);
+            }
+        } while (++next != end && !isShared && next->covered.triangle == current);
     }
 }
 
@@ -408,6 +500,7 @@ inline constexpr Programs kPrograms = {
     kFields<Interpolators>,
     interpolatedComponents(FieldsOf<Interpolators>{}),
     FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards,
+    kShares<Interpolators, FragmentProgram>,
     outputsOf<typename FragmentTypesOf<FragmentProgram, Interpolators>::Result>(),
     kCopier<VertexProgram>,
     kCopier<FragmentProgram>,

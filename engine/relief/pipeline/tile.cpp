@@ -184,6 +184,7 @@ void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
 {
     originX = x;
     originY = y;
+    seen = {};
     ClearValues values(clear);
     for (std::size_t i = 0; i < planes.size(); ++i) {
         std::int32_t value[4] = {};
@@ -306,6 +307,7 @@ void Tile::restore(int x, int y, const std::vector<std::int32_t>& saved)
 {
     originX = x;
     originY = y;
+    seen = {};
     const std::int32_t* from = saved.data();
     for (const Plane& plane : planes) {
         std::copy_n(from, wordCount(plane), plane.words.get());

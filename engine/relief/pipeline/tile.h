@@ -92,6 +92,13 @@ public:
 
     // Of all blocks together: conservative, and as narrow as they were when they were last refreshed.
     DepthBounds& wholeBounds() { return mWholeBounds; }
+
+    // Of the draw that came last to this tile: whether its program was seen to sample textures.
+    struct Seen
+    {
+        const void* draw = nullptr;
+        bool samples = false;
+    } seen;
     void refreshWholeBounds();
 
 private:
