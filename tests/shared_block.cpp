@@ -119,9 +119,9 @@ Drawn draw(const FragmentProgram& program, const RenderState& state, int samples
     const Mesh mesh = triangles(1500, width, height);
     REQUIRE(frame.draw(mesh, EveryKindFromPixels(viewport), program, state));
     Draw& recorded = frame.internals().draws.front();
-    CHECK(recorded.programs->shares == (kQuads > 1));
+    CHECK((recorded.programs->shadeShared != nullptr) == (kQuads > 1));
     Programs alone = *recorded.programs;
-    alone.shares = false;
+    alone.shadeShared = nullptr;
     if (!mayShare) recorded.programs = &alone;
     const Statistics statistics = frame.run();
     return {std::move(target), statistics};
@@ -140,6 +140,7 @@ TEST_CASE("shared block: every set of quads goes to every place and back, and le
         for (int taken = 0; taken + countBits(quads) <= kLanes; taken += 4) {
             const WayOfQuads way(quads, taken);
             const Int shared = way.there(number, others);
+            CHECK(way.lanes() == ((1u << countBits(quads)) - 1) << taken);
             const Float floats = way.there(Float(number), Float(others)), back = way.back(Float(shared));
             int place = taken;
             for (int i = 0; i < kLanes; ++i) {

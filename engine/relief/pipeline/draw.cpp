@@ -340,10 +340,6 @@ void forSamples(const Tile& tile, std::int32_t* plane, const ShadedBlock& block,
 }
 
 // What the program gives one of the targets.
-Channels& colorOf(ShadedBlock& block, int target)
-{
-    return target == 0 ? block.color : block.more->color[target - 1];
-}
 const Channels& colorOf(const ShadedBlock& block, int target)
 {
     return target == 0 ? block.color : block.more->color[target - 1];
@@ -380,85 +376,35 @@ template <Format format, bool severalSamples>
     return allInvalid;
 }
 
-// Which of a group's blocks run together: each goes where it leaves the least room.
-class Plan
-{
-public:
-    struct Run
-    {
-        std::array<std::uint8_t, kQuads> parts;  // places in the group
-        std::uint8_t partCount;
-    };
-
-    explicit Plan(std::span<const ShadedBlock> blocks)
-    {
-        constexpr std::size_t none = kBlocksPerGroup;
-        std::array<std::size_t, kQuads> roomy;           // of the runs with room for so many quads, the newest
-        std::array<std::size_t, kBlocksPerGroup> older;  // the one before it
-        roomy.fill(none);
-        for (const ShadedBlock& block : blocks) {
-            const auto quads = static_cast<std::size_t>(countBits(block.quads) / 4);
-            std::size_t room = quads;
-            while (room < kQuads && roomy[room] == none) ++room;
-            std::size_t run = count;
-            if (room < kQuads) {
-                run = std::exchange(roomy[room], older[roomy[room]]);
-            } else {
-                all[count++].partCount = 0;
-            }
-            all[run].parts[all[run].partCount++] = static_cast<std::uint8_t>(&block - blocks.data());
-            if (room > quads) older[run] = std::exchange(roomy[room - quads], run);
-        }
-    }
-
-    std::span<const Run> runs() const { return {all.data(), count}; }
-
-private:
-    std::array<Run, kBlocksPerGroup> all;
-    std::size_t count = 0;
-};
-
-// Runs the program on a group's blocks, those with few live quads together in shared ones. Returns how often it ran.
+// Runs the program on a group's blocks, those with few live quads in shared ones. Each goes where it leaves the least
+// room. Returns how often the program ran.
 [[gnu::noinline]] unsigned shadeTogether(const Draw& draw, std::span<ShadedBlock> blocks, const TriangleBatch& batch,
                                          const TriangleCorners* corners)
 {
-    const auto shade = [&](std::span<ShadedBlock> some) {
-        draw.programs->shadeBlocks(draw.fragmentProgram.get(), some, batch, corners);
-        return static_cast<unsigned>(some.size());
-    };
-    const auto isPartial = [](const ShadedBlock& block) { return block.quads != kAllLanes; };
-    if (std::count_if(blocks.begin(), blocks.end(), isPartial) < 2) return shade(blocks);
-    const Plan plan(blocks);
-    if (plan.runs().size() == blocks.size()) return shade(blocks);
-
-    std::array<ShadedBlock, kBlocksPerGroup> room;
-    std::array<MoreOutputs, kBlocksPerGroup> more;
+    constexpr std::size_t none = kBlocksPerGroup;
+    std::array<SharedBlock, kBlocksPerGroup> shared;
     std::size_t count = 0;
-    for (const Plan::Run& run : plan.runs()) {
-        ShadedBlock& block = room[count++];
-        block.covered.triangle = ShadedBlock::kShared;
-        block.group = blocks.data();
-        block.parts = run.parts;
-        block.partCount = run.partCount;
-        block.more = &more[count - 1];
-        int lanes = 0;
-        for (std::size_t i = 0; i < run.partCount; ++i) lanes += countBits(blocks[run.parts[i]].quads);
-        block.quads = (1u << lanes) - 1;
+    std::array<std::size_t, kQuads> roomy;           // of those with room for so many quads, the newest
+    std::array<std::size_t, kBlocksPerGroup> older;  // the one before it
+    roomy.fill(none);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const auto quads = static_cast<std::size_t>(countBits(blocks[i].quads) / 4);
+        std::size_t room = quads;
+        while (room < kQuads && roomy[room] == none) ++room;
+        std::size_t to = count;
+        if (room < kQuads) {
+            to = std::exchange(roomy[room], older[roomy[room]]);
+        } else {
+            shared[count++].count = 0;
+        }
+        shared[to].parts[shared[to].count++] = static_cast<std::uint8_t>(i);
+        if (room > quads) older[to] = std::exchange(roomy[room - quads], to);
     }
-    const std::span<ShadedBlock> shared(room.data(), count);
-    shade(shared);
-    for (ShadedBlock& block : shared) {
-        forEachPart(block, [&](ShadedBlock& part, const WayOfQuads& way) {
-            for (unsigned rest = draw.programs->outputs.targets; rest != 0; rest &= rest - 1) {
-                const int target = std::countr_zero(rest);
-                const Channels& from = colorOf(block, target);
-                Channels& to = colorOf(part, target);
-                way.back(Float::load(from[0])).store(to[0]);
-                way.back(Float::load(from[1])).store(to[1]);
-                way.back(Float::load(from[2])).store(to[2]);
-                way.back(Float::load(from[3])).store(to[3]);
-            }
-        });
+    const void* const program = draw.fragmentProgram.get();
+    if (count == blocks.size()) {
+        draw.programs->shadeBlocks(program, blocks, batch, corners);
+    } else {
+        draw.programs->shadeShared(program, {shared.data(), count}, blocks.data(), batch, corners);
     }
     return static_cast<unsigned>(count);
 }
@@ -480,7 +426,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     const unsigned targets = draw.state.colorWrite ? state.outputs.targets & tile.colors() : 0;
     const bool runsProgram = !leavesOut::colors || targets != 0 || state.decides;
     const std::size_t groupSize = state.decides ? 1 : kBlocksPerGroup;
-    const bool shares = leavesOut::emptyQuads && draw.programs->shares && !state.decides;
+    const bool mayShare = leavesOut::emptyQuads && draw.programs->shadeShared != nullptr && !state.decides;
     const bool isLarge = static_cast<int>(blocks.size()) >= kBlocksOfLargeTriangle * countBits(batch.visible);
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const DepthBounds inTile = isLarge ? tile.wholeBounds() : DepthBounds{-infinity, infinity};
@@ -504,9 +450,9 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
         const std::span<ShadedBlock> shaded(group.data(), free);
         if (!runsProgram || shaded.empty()) continue;
         // A program that samples no texture is done before its blocks would be put together.
-        const bool isNew = shares && tile.seen.draw != &draw, isShared = shares && !isNew && tile.seen.samples;
+        const bool isNew = mayShare && tile.seen.draw != &draw;
         const std::uint64_t sampled = isNew ? shading.fetches.samples() : 0;
-        if (isShared) {
+        if (mayShare && !isNew && tile.seen.samples) {
             counts.blocks += shadeTogether(draw, shaded, batch, corners.data());
         } else {
             counts.blocks += static_cast<unsigned>(shaded.size());

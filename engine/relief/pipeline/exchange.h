@@ -21,8 +21,7 @@ struct OwnProgram
     }
 };
 
-// `Watcher` is made of a draw and its OwnProgram; `shadeBlocks` gets it as its program,
-// and no shared blocks.
+// `Watcher` is made of a draw and its OwnProgram; `shadeBlocks` gets it as its program.
 template <class Watcher>
 class ExchangedPrograms
 {
@@ -38,7 +37,7 @@ public:
             Draw& draw = frame.draws[d];
             tables[d] = *draw.programs;
             tables[d].shadeBlocks = shadeBlocks;
-            tables[d].shares = false;
+            tables[d].shadeShared = nullptr;
             own.push_back(draw.programs);
             watchers.push_back(make(draw, OwnProgram{draw.programs, draw.fragmentProgram.get()}));
             draw.programs = &tables[d];

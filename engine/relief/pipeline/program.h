@@ -59,26 +59,7 @@ struct ShadedBlock
     int index;                                 // in the tile
     CoveredBlock covered;                      // its coverage: the lanes whose pixel's centre is in the triangle
     SampleCoverage liveSamples;                // where a pixel has several: of each, the lanes where it counts
-
-    // Of a shared block (shared_block.h), of which `covered` says only that it is one: the blocks whose live quads it
-    // has, those of the first one first.
-    static constexpr std::uint16_t kShared = 0xffff;  // covered.triangle
-    ShadedBlock* group;
-    std::array<std::uint8_t, kQuads> parts;  // places in the group
-    std::uint8_t partCount;
 };
-
-// Calls visit(part, its way) for each part of a shared block.
-template <class Visit>
-void forEachPart(const ShadedBlock& shared, const Visit& visit)
-{
-    int taken = 0;
-    for (std::size_t i = 0; i < shared.partCount; ++i) {
-        ShadedBlock& part = shared.group[shared.parts[i]];
-        visit(part, WayOfQuads(part.quads, taken));
-        taken += countBits(part.quads);
-    }
-}
 
 // The components of a triangle's three corners, and which side of it is seen.
 struct TriangleCorners
@@ -112,15 +93,18 @@ struct Programs
     Fields vertexData, interpolators;
     int components;  // to interpolate: all but SV_POSITION's
     bool discards;
-    bool shares;  // takes shared blocks
     Outputs outputs;
     ProgramCopier copyVertexProgram, copyFragmentProgram;
 
     void (*shadeVertices)(const void* vertexProgram, VertexLanes& vertices);
 
-    // Blocks of one batch, or shared ones if the program shares; `corners` has an element for each of its triangles.
+    // Blocks of one batch; `corners` has an element for each of its triangles.
     void (*shadeBlocks)(const void* fragmentProgram, std::span<ShadedBlock> blocks, const TriangleBatch& batch,
                         const TriangleCorners* corners);
+
+    // The same blocks in shared ones. Null where the program takes none.
+    void (*shadeShared)(const void* fragmentProgram, std::span<const SharedBlock> shared, ShadedBlock* blocks,
+                        const TriangleBatch& batch, const TriangleCorners* corners);
 };
 
 namespace detail {
@@ -184,22 +168,21 @@ constexpr Outputs outputsOf()
     }
 }
 
-inline void storeColor(const float4& color, float (&to)[4][kLanes])
+// What a fragment program gives for a block. `of` makes a colour's lanes of the program's: depth and coverage are never
+// shared.
+template <class Result, class Of>
+void storeOutputs(Result&& result, ShadedBlock& block, const Of& of)
 {
-    color.x.store(to[0]);
-    color.y.store(to[1]);
-    color.z.store(to[2]);
-    color.w.store(to[3]);
-}
-
-// What a fragment program gives for a block.
-template <class Result>
-void storeOutputs(Result&& result, ShadedBlock& block)
-{
+    const auto storeColor = [&of](const float4& color, float(&to)[4][kLanes]) {
+        of(color.x).store(to[0]);
+        of(color.y).store(to[1]);
+        of(color.z).store(to[2]);
+        of(color.w).store(to[3]);
+    };
     if constexpr (IsColor<Result>) {
         storeColor(result, block.color);
     } else {
-        forEachField(result, [&block]<class Field>(Field& field) {
+        forEachField(result, [&]<class Field>(Field& field) {
             if constexpr (Field::kSystemValue == SystemValue::depth) {
                 static_cast<const Float&>(field).store(block.more->depth);
             } else if constexpr (Field::kSystemValue == SystemValue::coverage) {
@@ -211,6 +194,11 @@ void storeOutputs(Result&& result, ShadedBlock& block)
             }
         });
     }
+}
+template <class Result>
+void storeOutputs(Result&& result, ShadedBlock& block)
+{
+    storeOutputs(static_cast<Result&&>(result), block, [](Float its) { return its; });
 }
 
 // A live compile (samples/live) inlines less: g++ then takes half the time, and the bits are the same.
@@ -240,9 +228,73 @@ RELIEF_FLATTEN void shadeVertices(const void* vertexProgram, VertexLanes& vertic
     });
 }
 
-// A part of a shared block's input.
+// A fragment program's input for a block. Where nothing is interpolated, SV_POSITION alone may want to know the edges:
+// the compiler sees whether it does.
+template <class Interpolators, int components>
+Interpolators inputOf(const ShadedBlock& block, const TriangleWeights& triangle,
+                      const CornerComponents<components>& corners, bool isFront, const TriangleEdges* edges)
+{
+    Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
+    if constexpr (components == 0) edges->at(block.covered.x, block.covered.y, edge);
+    const auto& c = block.centroid;
+    const Float centroid[3] = {Float::load(c[0]), Float::load(c[1]), Float::load(c[2])};
+    return interpolate<Interpolators>(triangle, corners, edge, centroid, isFront, block.covered.coverage,
+                                      block.covered.x, block.covered.y);
+}
+
+template <class Interpolators, class FragmentProgram, int components>
+void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle, const TriangleEdges& edges,
+                const CornerComponents<components>& corners, bool isFront, ShadedBlock& block)
+{
+    shading.activeLanes = block.quads;
+    const auto input = [&] { return inputOf<Interpolators>(block, triangle, corners, isFront, &edges); };
+    if constexpr (FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards) {
+        Discard discard;
+        storeOutputs(program(input(), discard), block);
+        block.discarded = discard.discarded.bits();
+    } else {
+        storeOutputs(program(input()), block);
+    }
+}
+
+template <class Interpolators, class FragmentProgram>
+RELIEF_FLATTEN void shadeBlocks(const void* fragmentProgram, std::span<ShadedBlock> blocks, const TriangleBatch& batch,
+                                const TriangleCorners* corners)
+{
+    const FragmentProgram& program = *static_cast<const FragmentProgram*>(fragmentProgram);
+    CornerComponents<interpolatedComponents(FieldsOf<Interpolators>{})> components;
+    TriangleWeights triangle;
+    TriangleEdges edges;
+    ShadedBlock* next = blocks.data();
+    ShadedBlock* const end = next + blocks.size();
+    while (next != end) {
+        const int current = next->covered.triangle;
+        const auto& [a, b, c] = corners[current].components;
+        const bool isFront = corners[current].isFront;
+        components.set(a, b, c);
+        triangle.set(batch, current);
+        if constexpr (components.kCount == 0) edges.set(batch, current);
+        do {
+            shadeBlock<Interpolators>(program, triangle, edges, components, isFront, *next);
+        } while (++next != end && next->covered.triangle == current);
+    }
+}
+
+// Calls visit(part, its way) for each part of a shared block.
+template <class Visit>
+void forEachPart(const SharedBlock& shared, ShadedBlock* blocks, const Visit& visit)
+{
+    int taken = 0;
+    for (std::size_t i = 0; i < shared.count; ++i) {
+        ShadedBlock& part = blocks[shared.parts[i]];
+        visit(part, WayOfQuads(part.quads, taken));
+        taken += countBits(part.quads);
+    }
+}
+
+// Puts one part's input into that of the whole.
 template <class Interpolators>
-void putInto(Interpolators& shared, Interpolators& part, const WayOfQuads& way)
+void putInto(Interpolators& whole, Interpolators& part, const WayOfQuads& way)
 {
     const auto put = [&way]<class F>(F& to, F& from) {
         if constexpr (F::kSystemValue == SystemValue::facing) {
@@ -255,106 +307,57 @@ void putInto(Interpolators& shared, Interpolators& part, const WayOfQuads& way)
             }
         }
     };
-    withFields(shared, [&](auto&... to) { withFields(part, [&](auto&... from) { (put(to, from), ...); }); });
+    withFields(whole, [&](auto&... to) { withFields(part, [&](auto&... from) { (put(to, from), ...); }); });
 }
 
-// What a triangle adds to a fragment program's input, and edges where nothing is interpolated.
-template <class Interpolators>
-struct InputOfTriangle
-{
-    static constexpr int kCount = interpolatedComponents(FieldsOf<Interpolators>{});
-
-    CornerComponents<kCount> components;
-    TriangleWeights weights;
-    std::conditional_t<kCount == 0, TriangleEdges, bool> edges;
-    bool isFront;
-
-    void set(const TriangleBatch& batch, const TriangleCorners* corners, int triangle)
-    {
-        const auto& [a, b, c] = corners[triangle].components;
-        isFront = corners[triangle].isFront;
-        components.set(a, b, c);
-        weights.set(batch, triangle);
-        if constexpr (kCount == 0) edges.set(batch, triangle);
-    }
-
-    Interpolators at(const ShadedBlock& block) const
-    {
-        Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
-        // Where nothing is interpolated, SV_POSITION alone may want to know them: the compiler sees whether it does.
-        if constexpr (kCount == 0) edges.at(block.covered.x, block.covered.y, edge);
-        const auto& c = block.centroid;
-        const Float centroid[3] = {Float::load(c[0]), Float::load(c[1]), Float::load(c[2])};
-        return interpolate<Interpolators>(weights, components, edge, centroid, isFront, block.covered.coverage,
-                                          block.covered.x, block.covered.y);
-    }
-};
-
-// The input of shared blocks. Their parts are of few triangles, in any order.
-template <class Interpolators>
-class InputOfShared
-{
-public:
-    Interpolators at(const ShadedBlock& block, const TriangleBatch& batch, const TriangleCorners* corners)
-    {
-        Interpolators shared;
-        forEachPart(block, [&](const ShadedBlock& part, const WayOfQuads& way) {
-            const int triangle = part.covered.triangle;
-            if ((known >> triangle & 1u) == 0) triangles[triangle].set(batch, corners, triangle);
-            known |= 1u << triangle;
-            Interpolators its = triangles[triangle].at(part);
-            putInto(shared, its, way);
-        });
-        return shared;
-    }
-
-private:
-    unsigned known = 0;
-    InputOfTriangle<Interpolators> triangles[kLanes];
-};
-
-// Whether a program runs on shared blocks. Not with nothing to interpolate, when it is soon done; and not where it
-// decides which pixels are drawn, for then it runs block by block.
+// A function of its own: with blocks of both kinds in one, its input would come from two places, and those that are not
+// shared would wait for it. So the program is compiled twice.
 template <class Interpolators, class FragmentProgram>
-constexpr bool sharesBlocks()
-{
-    using Types = FragmentTypesOf<FragmentProgram, Interpolators>;
-    constexpr Outputs outputs = outputsOf<typename Types::Result>();
-    return kQuads > 1 && interpolatedComponents(FieldsOf<Interpolators>{}) > 0 && !Types::kDiscards && !outputs.depth &&
-           !outputs.coverage;
-}
-template <class Interpolators, class FragmentProgram>
-inline constexpr bool kShares = sharesBlocks<Interpolators, FragmentProgram>();
-
-template <class Interpolators, class FragmentProgram>
-RELIEF_FLATTEN void shadeBlocks(const void* fragmentProgram, std::span<ShadedBlock> blocks, const TriangleBatch& batch,
-                                const TriangleCorners* corners)
+RELIEF_FLATTEN void shadeShared(const void* fragmentProgram, std::span<const SharedBlock> shared, ShadedBlock* blocks,
+                                const TriangleBatch& batch, const TriangleCorners* corners)
 {
     const FragmentProgram& program = *static_cast<const FragmentProgram*>(fragmentProgram);
-    InputOfTriangle<Interpolators> triangle;
-    InputOfShared<Interpolators> inputOfShared;
-    ShadedBlock* next = blocks.data();
-    ShadedBlock* const end = next + blocks.size();
-    while (next != end) {
-        const int current = next->covered.triangle;
-        const bool isShared = kShares<Interpolators, FragmentProgram> && current == ShadedBlock::kShared;
-        Interpolators shared;
-        if (isShared)
-            shared = inputOfShared.at(*next, batch, corners);
-        else
-            triangle.set(batch, corners, current);
-        do {
-            const auto input = [&] { return isShared ? shared : triangle.at(*next); };
-            shading.activeLanes = next->quads;
-            if constexpr (FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards) {
-                Discard discard;
-                storeOutputs(program(input(), discard), *next);
-                next->discarded = discard.discarded.bits();
-            } else {
-                storeOutputs(program(input()), *next);
+    // The parts are of few triangles, in any order.
+    TriangleWeights triangles[kLanes];
+    CornerComponents<interpolatedComponents(FieldsOf<Interpolators>{})> components[kLanes];
+    unsigned known = 0;
+    for (const SharedBlock& block : shared) {
+        Interpolators input;
+        unsigned lanes = 0;
+        forEachPart(block, blocks, [&](const ShadedBlock& part, const WayOfQuads& way) {
+            const int triangle = part.covered.triangle;
+            if ((known >> triangle & 1u) == 0) {
+                const auto& [a, b, c] = corners[triangle].components;
+                components[triangle].set(a, b, c);
+                triangles[triangle].set(batch, triangle);
+                known |= 1u << triangle;
             }
-        } while (++next != end && !isShared && next->covered.triangle == current);
+            Interpolators its = inputOf<Interpolators>(part, triangles[triangle], components[triangle],
+                                                       corners[triangle].isFront, nullptr);
+            putInto(input, its, way);
+            lanes |= way.lanes();
+        });
+        shading.activeLanes = lanes;
+        auto result = program(std::move(input));
+        forEachPart(block, blocks, [&](ShadedBlock& part, const WayOfQuads& way) {
+            storeOutputs(result, part, [&way](Float its) { return way.back(its); });
+        });
     }
+}
+
+// Not with nothing to interpolate, when a program is soon done; and not where it decides which pixels are drawn, for
+// then it runs block by block. A live compile compiles it once.
+template <class Interpolators, class FragmentProgram>
+constexpr auto sharedShader() -> decltype(Programs::shadeShared)
+{
+#if !defined(RELIEF_LIVE)
+    using Types = FragmentTypesOf<FragmentProgram, Interpolators>;
+    constexpr Outputs outputs = outputsOf<typename Types::Result>();
+    if constexpr (kQuads > 1 && interpolatedComponents(FieldsOf<Interpolators>{}) > 0 && !Types::kDiscards &&
+                  !outputs.depth && !outputs.coverage)
+        return shadeShared<Interpolators, FragmentProgram>;
+#endif
+    return nullptr;
 }
 
 // --- what a program must look like; a failure names the sentence that is not met ---
@@ -500,12 +503,12 @@ inline constexpr Programs kPrograms = {
     kFields<Interpolators>,
     interpolatedComponents(FieldsOf<Interpolators>{}),
     FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards,
-    kShares<Interpolators, FragmentProgram>,
     outputsOf<typename FragmentTypesOf<FragmentProgram, Interpolators>::Result>(),
     kCopier<VertexProgram>,
     kCopier<FragmentProgram>,
     shadeVertices<VertexData, Interpolators, VertexProgram>,
     shadeBlocks<Interpolators, FragmentProgram>,
+    sharedShader<Interpolators, FragmentProgram>(),
 };
 
 // Where a draw finds them. A live compile divides a file's programs among several compilers (samples/live/parts.h).

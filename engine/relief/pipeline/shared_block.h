@@ -16,6 +16,14 @@ namespace relief::inline RELIEF_WIDTH {
 
 inline constexpr int kQuads = kLanes / 4;  // in a block
 
+// Which blocks of a group share one: `count` places in the group. All live quads of these have room in it, those of the
+// first one first.
+struct SharedBlock
+{
+    std::array<std::uint8_t, kQuads> parts;
+    std::uint8_t count;
+};
+
 namespace detail {
 
 // For each set of quads, a bit each: its lanes one after the other, from kLanes on, and each lane's place among them.
@@ -49,6 +57,9 @@ public:
     // The shared block with these quads in it.
     Float there(Float block, Float shared) const { return select(here, permute(block, from), shared); }
     Int there(Int block, Int shared) const { return select(here, permute(block, from), shared); }
+
+    // The shared block's lanes that are these quads' now.
+    unsigned lanes() const { return here.bits(); }
 
     // The block; its other quads are anything.
     Float back(Float shared) const { return permute(shared, to); }

@@ -92,6 +92,7 @@ public:
 
     // Of all blocks together: conservative, and as narrow as they were when they were last refreshed.
     DepthBounds& wholeBounds() { return mWholeBounds; }
+    void refreshWholeBounds();
 
     // Of the draw that came last to this tile: whether its program was seen to sample textures.
     struct Seen
@@ -99,7 +100,6 @@ public:
         const void* draw = nullptr;
         bool samples = false;
     } seen;
-    void refreshWholeBounds();
 
 private:
     struct Plane
