@@ -147,6 +147,9 @@ TEST_CASE("sampler_lanes: a sampler that never minifies never builds a level, no
     s.mipmaps = true;
     (void)tex2D(s, evenly(2.0f));  // exactly level 1: level 2 is not needed
     CHECK(texture.levelsBuilt() == 2);
+    const Float halfOrOne = perLane([](int i) { return i % 2 == 0 ? 0.5f : 1.0f; });  // nor where others are between
+    (void)tex2Dlod(s, float4(evenly(1.0f), Float(0.0f), halfOrOne));
+    CHECK(texture.levelsBuilt() == 2);
     (void)tex2D(s, evenly(2.1f));
     CHECK(texture.levelsBuilt() == 3);
 }

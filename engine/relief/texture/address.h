@@ -44,6 +44,13 @@ struct TextureSide
     float subtexels;
 };
 
+// One for each lane, where lanes are on textures, or levels of one, of different sizes.
+struct TextureSides
+{
+    Int texels;
+    Float subtexels;
+};
+
 // The coordinate brought into the range that the conversion to fixed point is safe for: one period where the texture
 // repeats, else all that differs. It does not depend on the level. NaN stays or becomes 0.
 [[gnu::always_inline]] inline Float reduceRange(AddressMode mode, Float u)
@@ -66,7 +73,8 @@ struct TextureSide
 // The position of the first of the two texels that a bilinear fetch lies between, and 1/4096 of the way to the second,
 // in one number: position * 4096 + fraction. Position is in 0..side for wrap and 1..side for clamp and mirror (the last
 // with fraction 0); in the border mode it can be outside.
-[[gnu::always_inline]] inline Int pairPosition(AddressMode mode, Float reduced, const TextureSide& side)
+template <class Side>  // TextureSide, TextureSides
+[[gnu::always_inline]] inline Int pairPosition(AddressMode mode, Float reduced, const Side& side)
 {
     // Half a texel back from the edge to the centre, one on for the frame.
     const Float position = reduced * side.subtexels + static_cast<float>(kSubtexels / 2);
@@ -80,7 +88,8 @@ struct TextureSide
 
 // The position of the nearest texel, in 1..side + 1 for wrap (the last is the frame's copy of the first texel), 1..side
 // for clamp and mirror; in the border mode it can be outside.
-inline Int nearestPosition(AddressMode mode, Float reduced, const TextureSide& side)
+template <class Side>
+inline Int nearestPosition(AddressMode mode, Float reduced, const Side& side)
 {
     constexpr int one = 1 << kNearestBits;
     const Float position =

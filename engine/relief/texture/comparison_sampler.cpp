@@ -35,7 +35,7 @@ Square squareAt(const Place<AnyModes>& place, const MipLevel& level, const Pairs
 template <class Fetch>
 Float compareIn(const SamplerComparisonState& s, const sampler2D& plain, const float2& uv, Float reference)
 {
-    const Place<AnyModes> place(plain, *plain.texture, uv.x, uv.y);
+    const Place<AnyModes> place = placeOn<AnyModes>(plain, *plain.texture, uv.x, uv.y);
     const MipLevel& level = plain.texture->level(0);
     const Pairs at = pairsOn(place, level);
     const Square texels = squareAt<Fetch>(place, level, at);

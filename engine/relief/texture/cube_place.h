@@ -68,46 +68,56 @@ struct CubePlace
 {
     const samplerCUBE& sampler;
     const CubeMap& texture;
+    Float u, v;  // 0..1 on its face, from the lower left corner
     Int face;
-    Float u, v;  // 0..1 on that face, from its lower left corner
+
+    // Calls function(u, v, face), all of it that is lanes.
+    template <class Function>
+    [[gnu::always_inline]] void withLanes(const Function& function) const
+    {
+        function(u, v, face);
+    }
 };
 
 // The frame goes on where the face ends, as a repeated texture does.
-[[gnu::always_inline]] inline Pairs pairsOn(const CubePlace& place, const MipLevel& level)
+template <class Level>
+[[gnu::always_inline]] inline Pairs pairsOn(const CubePlace& place, const Level& level)
 {
-    const TextureSide& side = level.sideU();
+    const auto& side = level.sideU();
     const AddressMode mode = place.sampler.seamless ? AddressMode::wrap : AddressMode::clamp;
     const Int x = pairPosition(mode, place.u, side), y = pairPosition(mode, place.v, side);
     return {x >> kSubtexelBits, y >> kSubtexelBits, x & kSubtexelMask, y & kSubtexelMask};
 }
 
-inline Int texelIndexOn(const CubePlace& place, const MipLevel& level, Int x, Int y)
+template <class Level>
+inline Int texelIndexOn(const CubePlace& place, const Level& level, Int x, Int y)
 {
     return texelIndex(level, x, place.face * (level.width() + 2) + y);
 }
 
-template <class Fetch>
-[[gnu::always_inline]] inline float4 nearestOn(const CubePlace& place, const MipLevel& level)
+template <class Fetch, class Level>
+[[gnu::always_inline]] inline float4 nearestOn(const CubePlace& place, const Level& level)
 {
     const Int x = nearestPosition(AddressMode::clamp, place.u, level.sideU());
     const Int y = nearestPosition(AddressMode::clamp, place.v, level.sideU());
     return Fetch::nearest(level, texelIndexOn(place, level, x, y));
 }
 
-template <class Fetch>
-[[gnu::always_inline]] inline float4 bilinearOn(const CubePlace& place, const MipLevel& level, const Pairs& at)
+template <class Fetch, class Level>
+[[gnu::always_inline]] inline float4 bilinearOn(const CubePlace& place, const Level& level, const Pairs& at)
 {
     return Fetch::bilinear(level, texelIndexOn(place, level, at.x, at.y), at.fx, at.fy);
 }
 
-inline bool leavesOutAlpha(const CubePlace&, const MipLevel& level)
+template <class Level>
+bool leavesOutAlpha(const CubePlace&, const Level& level)
 {
     return leavesOut::alpha && level.isOpaque();
 }
 
 inline CubePlace placeOn(const samplerCUBE& s, const Meeting& at)
 {
-    return {s, textureOf(s), at.face.face(), at.s * 0.5f + 0.5f, at.t * 0.5f + 0.5f};
+    return {s, textureOf(s), at.s * 0.5f + 0.5f, at.t * 0.5f + 0.5f, at.face.face()};
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

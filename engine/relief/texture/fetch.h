@@ -1,5 +1,6 @@
 // Texels from memory to lanes, one type per texel format. What comes out is "raw": the numbers of the format times a
-// constant (kOne is what 1.0 is). Filters mix raw values, and only the end result is scaled by toUnit.
+// constant (kOne is what 1.0 is). Filters mix raw values, and only the end result is scaled by toUnit. A Level is a
+// MipLevel, or one for each lane (LaneLevels).
 //
 // This is where a frame spends its time. So 8-bit texels are weighted in integers, two products at a time, and 16-bit
 // ones avoid the conversion to floats: a number below 2^16 put into the low mantissa bits of 2^23 is a float already,
@@ -8,10 +9,11 @@
 
 #include <bit>
 #include <cstddef>
+#include <type_traits>
 
 #include "relief/hlsl/types.h"
 #include "relief/texture/address.h"
-#include "relief/texture/mip_chain.h"
+#include "relief/texture/lane_levels.h"
 
 namespace relief::inline RELIEF_WIDTH {
 
@@ -27,21 +29,26 @@ public:
         asm("" : "+m"(indices));  // or the compiler would take the lanes out of the register, one shuffle each
     }
 
-    // Where a lane's texel is.
-    template <int bytesPerTexel>
+    // Where a lane's texel is. Texels: the address of all lanes' level, or LaneTexels.
+    template <int bytesPerTexel, class Texels>
     struct Address
     {
-        const std::byte* texels;
+        Texels texels;
         const std::int32_t* indices;
 
         [[gnu::always_inline]] const std::byte* operator()(int lane) const
         {
-            return texels + std::size_t{static_cast<std::uint32_t>(indices[lane])} * bytesPerTexel;
+            const std::size_t offset = std::size_t{static_cast<std::uint32_t>(indices[lane])} * bytesPerTexel;
+            if constexpr (std::is_same_v<Texels, LaneTexels>) {
+                return texels[lane] + offset;
+            } else {
+                return texels + offset;
+            }
         }
     };
 
-    template <int bytesPerTexel>
-    Address<bytesPerTexel> from(const std::byte* texels) const
+    template <int bytesPerTexel, class Texels>
+    Address<bytesPerTexel, Texels> from(Texels texels) const
     {
         return {texels, indices};
     }
@@ -105,7 +112,8 @@ struct FetchRgba8
     static constexpr float kOne = 255.0f * kSubtexels;
 
     // The texel at `index`, counted from level.texels().
-    static float4 nearest(const MipLevel& level, Int index)
+    template <class Level>
+    static float4 nearest(const Level& level, Int index)
     {
         native::IntVector words[2];
         const detail::TexelIndices indices(index);
@@ -119,13 +127,13 @@ struct FetchRgba8
     //
     // Along the rows in integers, which are exact (20 bits), with red and green of both texels in one register, blue
     // and alpha in the other; then between the rows in floats.
-    [[gnu::always_inline]] static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
+    template <class Level>
+    [[gnu::always_inline]] static float4 bilinear(const Level& level, Int index, Int fx, Int fy)
     {
         native::IntVector lower[2], upper[2];
         const detail::TexelIndices indices(index);
-        const std::byte* texels = level.texels();
-        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(texels),
-                                                 indices.from<kBytes>(texels + level.rowBytes()), lower, upper);
+        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(level.texels()),
+                                                 indices.from<kBytes>(level.texelsAbove()), lower, upper);
         const Int weights =
             (fx << 16) + (kSubtexels - fx);  // of the left texel in the low half, of the right one above
         const Row a = alongRow(lower, weights), b = alongRow(upper, weights);
@@ -167,7 +175,8 @@ struct FetchRgba16
     static constexpr int kBytes = 8;
     static constexpr float kOne = 65535.0f;
 
-    static float4 nearest(const MipLevel& level, Int index)
+    template <class Level>
+    static float4 nearest(const Level& level, Int index)
     {
         native::IntVector words[2];
         const detail::TexelIndices indices(index);
@@ -177,13 +186,13 @@ struct FetchRgba16
                 detail::biasedHalf(ba) - detail::kBias, detail::biasedUpperHalf(ba) - detail::kBias};
     }
 
-    [[gnu::always_inline]] static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
+    template <class Level>
+    [[gnu::always_inline]] static float4 bilinear(const Level& level, Int index, Int fx, Int fy)
     {
         native::IntVector lower[4], upper[4];
         const detail::TexelIndices indices(index);
-        const std::byte* texels = level.texels();
-        native::loadTransposed<native::FourWords>(indices.from<kBytes>(texels),
-                                                  indices.from<kBytes>(texels + level.rowBytes()), lower, upper);
+        native::loadTransposed<native::FourWords>(indices.from<kBytes>(level.texels()),
+                                                  indices.from<kBytes>(level.texelsAbove()), lower, upper);
         const Float tx = Float(fx) * (1.0f / kSubtexels), ty = Float(fy) * (1.0f / kSubtexels);
         return detail::mix(alongRow(lower, tx), alongRow(upper, tx), ty);
     }
@@ -219,13 +228,18 @@ struct FetchRgba32Float
     static constexpr int kBytes = 16;
     static constexpr float kOne = 1.0f;
 
-    static float4 nearest(const MipLevel& level, Int index) { return load(level.texels(), index); }
-
-    static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
+    template <class Level>
+    static float4 nearest(const Level& level, Int index)
     {
-        const std::byte *lower = level.texels(), *upper = lower + level.rowBytes();
-        const float4 lowerLeft = load(lower, index), lowerRight = load(lower + kBytes, index);
-        const float4 upperLeft = load(upper, index), upperRight = load(upper + kBytes, index);
+        return load(level.texels(), index);
+    }
+
+    template <class Level>
+    static float4 bilinear(const Level& level, Int index, Int fx, Int fy)
+    {
+        const float4 lowerLeft = load(level.texels(), index), lowerRight = load(level.texels(), index, kBytes);
+        const float4 upperLeft = load(level.texelsAbove(), index);
+        const float4 upperRight = load(level.texelsAbove(), index, kBytes);
         const Float tx = Float(fx) * (1.0f / kSubtexels), ty = Float(fy) * (1.0f / kSubtexels);
         float4 result;
         for (int c = 0; c < 4; ++c) {
@@ -240,11 +254,13 @@ struct FetchRgba32Float
     static float4 toUnit(const float4& raw) { return raw; }
 
 private:
-    static float4 load(const std::byte* texels, Int index)
+    template <class Texels>
+    static float4 load(Texels texels, Int index, int bytesAfter = 0)
     {
         native::IntVector words[4];
         const detail::TexelIndices indices(index);
-        native::loadTransposed<native::FourWords>(indices.from<kBytes>(texels), words);
+        const auto at = indices.from<kBytes>(texels);
+        native::loadTransposed<native::FourWords>([&](int lane) { return at(lane) + bytesAfter; }, words);
         return {asFloat(Int(words[0])), asFloat(Int(words[1])), asFloat(Int(words[2])), asFloat(Int(words[3]))};
     }
 };
@@ -260,17 +276,18 @@ struct FetchR32Float
     {
         Float lowerLeft, lowerRight, upperLeft, upperRight;
     };
-    static Square square(const MipLevel& level, Int index)
+    template <class Level>
+    static Square square(const Level& level, Int index)
     {
         native::IntVector lower[2], upper[2];
         const detail::TexelIndices indices(index);
-        const std::byte* texels = level.texels();
-        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(texels),
-                                                 indices.from<kBytes>(texels + level.rowBytes()), lower, upper);
+        native::loadTransposed<native::TwoWords>(indices.from<kBytes>(level.texels()),
+                                                 indices.from<kBytes>(level.texelsAbove()), lower, upper);
         return {asFloat(Int(lower[0])), asFloat(Int(lower[1])), asFloat(Int(upper[0])), asFloat(Int(upper[1]))};
     }
 
-    static float4 nearest(const MipLevel& level, Int index)
+    template <class Level>
+    static float4 nearest(const Level& level, Int index)
     {
         native::IntVector words[2];
         const detail::TexelIndices indices(index);
@@ -278,7 +295,8 @@ struct FetchR32Float
         return red(asFloat(Int(words[0])));
     }
 
-    static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
+    template <class Level>
+    static float4 bilinear(const Level& level, Int index, Int fx, Int fy)
     {
         const Square s = square(level, index);
         const Float tx = Float(fx) * (1.0f / kSubtexels), ty = Float(fy) * (1.0f / kSubtexels);
@@ -314,13 +332,15 @@ template <class Function>
 template <class Fetch>
 struct Opaque : Fetch
 {
-    static float4 nearest(const MipLevel& level, Int index)
+    template <class Level>
+    static float4 nearest(const Level& level, Int index)
     {
         const float4 c = Fetch::nearest(level, index);
         return {c.x, c.y, c.z, Float(Fetch::kOne)};
     }
 
-    [[gnu::always_inline]] static float4 bilinear(const MipLevel& level, Int index, Int fx, Int fy)
+    template <class Level>
+    [[gnu::always_inline]] static float4 bilinear(const Level& level, Int index, Int fx, Int fy)
     {
         const float4 c = Fetch::bilinear(level, index, fx, fy);
         return {c.x, c.y, c.z, Float(Fetch::kOne)};

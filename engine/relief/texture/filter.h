@@ -1,12 +1,13 @@
 // Filters: from a place on a texture and a level of detail to a colour, for one texel format. The common case, every
-// lane on one mip level, goes straight through; a block that spans several levels runs once per level.
+// lane on one mip level, goes straight through; where they are on several, a Level below is not a MipLevel, but
+// LaneLevels.
 //
 // All of this is inlined into three functions (finestIn, mipChainIn and implicitIn in sampler.cpp) for each texel
 // format and kind of address modes: a call in between would move every register through memory. The rare cases that are
 // called take their parameters by value, or these would be in memory for the others, too.
 #pragma once
 
-#include <bit>
+#include <algorithm>
 
 #include "relief/leave_out.h"
 #include "relief/texture/fetch.h"
@@ -47,16 +48,25 @@ constexpr bool hasBorder(const Modes& modes)  // of a sampler, too
 template <class Modes>
 struct Place
 {
-    Place(const sampler2D& s, const Texture& of, Float toU, Float toV)
-        : modes(s), sampler(s), texture(of), u(reduceRange(modes.u, toU)), v(reduceRange(modes.v, toV))
-    {
-    }
-
-    Modes modes;
     const sampler2D& sampler;
     const Texture& texture;
     Float u, v;
+    Modes modes = Modes(sampler);
+
+    // Calls function(u, v), all of it that is lanes.
+    template <class Function>
+    [[gnu::always_inline]] void withLanes(const Function& function) const
+    {
+        function(u, v);
+    }
 };
+
+template <class Modes>
+[[gnu::always_inline]] inline Place<Modes> placeOn(const sampler2D& s, const Texture& texture, Float u, Float v)
+{
+    const Modes modes(s);
+    return {s, texture, reduceRange(modes.u, u), reduceRange(modes.v, v)};
+}
 
 // The lanes that results are wanted for. A block without any still gets some values.
 inline unsigned wantedLanes()
@@ -71,8 +81,8 @@ struct Pairs
     Int fx, fy;  // 0..kSubtexels - 1
 };
 
-template <class Modes>
-[[gnu::always_inline]] inline Pairs pairsOn(const Place<Modes>& place, const MipLevel& level)
+template <class Modes, class Level>
+[[gnu::always_inline]] inline Pairs pairsOn(const Place<Modes>& place, const Level& level)
 {
     const Int x = pairPosition(place.modes.u, place.u, level.sideU());
     const Int y = pairPosition(place.modes.v, place.v, level.sideV());
@@ -89,8 +99,8 @@ template <class Fetch>
 // --- with a border: one texel at a time, rare and simple ---
 
 // A texel by its position (see address.h), or the border's colour where an axis in border mode leaves the texture.
-template <class Fetch>
-float4 texelOrBorder(const sampler2D& s, const MipLevel& level, Int x, Int y)
+template <class Fetch, class Level>
+float4 texelOrBorder(const sampler2D& s, const Level& level, Int x, Int y)
 {
     Mask outside = false;
     if (s.u == AddressMode::border) outside |= (x < 1) | (x > level.width());
@@ -102,8 +112,8 @@ float4 texelOrBorder(const sampler2D& s, const MipLevel& level, Int x, Int y)
     return result;
 }
 
-template <class Fetch>
-[[gnu::noinline]] float4 bilinearWithBorder(const sampler2D& s, const MipLevel& level, Pairs at)
+template <class Fetch, class Level>
+[[gnu::noinline]] float4 bilinearWithBorder(const sampler2D& s, const Level& level, Pairs at)
 {
     const float4 lowerLeft = texelOrBorder<Fetch>(s, level, at.x, at.y);
     const float4 lowerRight = texelOrBorder<Fetch>(s, level, at.x + 1, at.y);
@@ -116,21 +126,22 @@ template <class Fetch>
 // --- on one level ---
 
 // Of positions within the frame. Both factors are below 2^15: a product of halves is faster than one of whole words.
-inline Int texelIndex(const MipLevel& level, Int x, Int y)
+template <class Level>
+inline Int texelIndex(const Level& level, Int x, Int y)
 {
     static_assert(kMaxTextureSide + 64 < 1 << 15);  // frame and padding included
     return multiplyAddHalves(y, level.rowTexels()) + x;
 }
 
 // A border has an alpha of its own.
-template <class Modes>
-bool leavesOutAlpha(const Place<Modes>& place, const MipLevel& level)
+template <class Modes, class Level>
+bool leavesOutAlpha(const Place<Modes>& place, const Level& level)
 {
     return leavesOut::alpha && level.isOpaque() && !hasBorder(place.modes);
 }
 
-template <class Fetch, class Modes>
-[[gnu::always_inline]] inline float4 nearestOn(const Place<Modes>& place, const MipLevel& level)
+template <class Fetch, class Modes, class Level>
+[[gnu::always_inline]] inline float4 nearestOn(const Place<Modes>& place, const Level& level)
 {
     const Int x = nearestPosition(place.modes.u, place.u, level.sideU());
     const Int y = nearestPosition(place.modes.v, place.v, level.sideV());
@@ -139,8 +150,8 @@ template <class Fetch, class Modes>
     return Fetch::nearest(level, texelIndex(level, x, y));
 }
 
-template <class Fetch, class Modes>
-[[gnu::always_inline]] inline float4 bilinearOn(const Place<Modes>& place, const MipLevel& level, const Pairs& at)
+template <class Fetch, class Modes, class Level>
+[[gnu::always_inline]] inline float4 bilinearOn(const Place<Modes>& place, const Level& level, const Pairs& at)
 {
     if (hasBorder(place.modes)) [[unlikely]]
         return bilinearWithBorder<Fetch>(place.sampler, level, at);
@@ -149,11 +160,11 @@ template <class Fetch, class Modes>
 
 // --- on one or several levels, of textures and of cube maps ---
 //
-// A place is one on a texture, a Place, or one on a cube map (cube_sampler.cpp): it has `sampler` and `texture`, and
-// the functions of its own above, pairsOn, nearestOn, bilinearOn and leavesOutAlpha.
+// A place is one on a texture, a Place, or one on a cube map (cube_place.h): it has `sampler`, `texture` and
+// withLanes(), and the functions of its own above, pairsOn, nearestOn, bilinearOn and leavesOutAlpha.
 
-template <class Fetch, class SomePlace>
-[[gnu::always_inline]] inline float4 sampleLevel(const SomePlace& place, const MipLevel& level)
+template <class Fetch, class SomePlace, class Level>
+[[gnu::always_inline]] inline float4 sampleLevel(const SomePlace& place, const Level& level)
 {
     if (place.sampler.filter == Filter::nearest) return nearestOn<Fetch>(place, level);
     const Pairs at = pairsOn(place, level);
@@ -163,9 +174,9 @@ template <class Fetch, class SomePlace>
 
 // Both levels' texels are located before the first is fetched: the processor has something to do while the first
 // addresses are on their way through memory.
-template <class Fetch, class SomePlace>
-[[gnu::always_inline]] inline float4 sampleBetween(const SomePlace& place, const MipLevel& finer,
-                                                   const MipLevel& coarser, Float t)
+template <class Fetch, class SomePlace, class Level>
+[[gnu::always_inline]] inline float4 sampleBetween(const SomePlace& place, const Level& finer, const Level& coarser,
+                                                   Float t)
 {
     const Pairs onFiner = pairsOn(place, finer), onCoarser = pairsOn(place, coarser);
     const float4 a = bilinearOn<Fetch>(place, finer, onFiner);
@@ -173,38 +184,50 @@ template <class Fetch, class SomePlace>
     return mixEach<Fetch>(a, b, t);
 }
 
-// Level k for all lanes, and with the trilinear filter the part of level k + 1 that `fraction` (0..255) says; `lanes`
-// are those that the result is for.
-template <class Fetch, class SomePlace>
-[[gnu::always_inline]] inline float4 sampleLevels(const SomePlace& place, int k, Int fraction, unsigned lanes)
+// The levels of these numbers.
+template <class Levels>
+const MipLevel& levelOf(const Levels& levels, int number, unsigned)
 {
-    const MipLevel& finer = place.texture.level(k);
-    const bool hasOneLevel =
-        leavesOut::coarserLevel ? ((fraction != 0).bits() & lanes) == 0 : k + 1 == place.texture.levelCount();
-    if (place.sampler.filter != Filter::trilinear || hasOneLevel) {
-        return sampleLevel<Fetch>(place, finer);
-    }
-    const MipLevel& coarser = place.texture.level(k + 1);
+    return levels.level(number);
+}
+template <class Levels>
+LaneLevels levelOf(const Levels& levels, Int number, unsigned lanes)
+{
+    return LaneLevels(levels, number, lanes);
+}
+
+// The numbers of those that follow. A lane that takes no part of its next level need not have it built.
+inline int coarserThan(int number, Int, int levelCount)
+{
+    return leavesOut::coarserLevel ? number + 1 : std::min(number + 1, levelCount - 1);
+}
+inline Int coarserThan(Int number, Int fraction, int levelCount)
+{
+    const Int next = min(number + 1, levelCount - 1);
+    return leavesOut::coarserLevel ? select(fraction != 0, next, number) : next;
+}
+
+// Level `number`, of all lanes or of each, and with the trilinear filter the part of the next one that `fraction`
+// (0..255) says; `lanes` are those that the result is for.
+template <class Fetch, class SomePlace, class Number>  // int, Int
+[[gnu::always_inline]] inline float4 sampleLevels(const SomePlace& place, Number number, Int fraction, unsigned lanes)
+{
+    const auto& levels = place.texture;
+    const auto& finer = levelOf(levels, number, lanes);
+    const bool hasOneLevel = leavesOut::coarserLevel && ((fraction != 0).bits() & lanes) == 0;
+    if (place.sampler.filter != Filter::trilinear || hasOneLevel) return sampleLevel<Fetch>(place, finer);
+    const auto& coarser = levelOf(levels, coarserThan(number, fraction, levels.levelCount()), lanes);
     const Float t = Float(fraction) * (1.0f / kLodOne);
     return leavesOutAlpha(place, finer) && coarser.isOpaque() ? sampleBetween<Opaque<Fetch>>(place, finer, coarser, t)
                                                               : sampleBetween<Fetch>(place, finer, coarser, t);
 }
 
-// Every lane on its own level: one round per distinct level.
-template <class Fetch, class SomePlace>
-[[gnu::noinline]] float4 sampleSeveralLevels(SomePlace place, Int level, Int fraction)
+// Each lane on its own level. `place` is the place's lanes: they travel in registers, where a place would in memory.
+template <class Fetch, class SomePlace, class Sampler, class Levels, class... Lanes>
+[[gnu::noinline]] void sampleSeveralLevels(float4& result, const Sampler& sampler, const Levels& texture, Int level,
+                                           Int fraction, Lanes... place)
 {
-    std::int32_t levels[kLanes];
-    level.store(levels);
-    float4 result(Float(0.0f));
-    for (unsigned waiting = wantedLanes() & kAllLanes; waiting != 0;) {
-        const int k = levels[std::countr_zero(waiting)];
-        const Mask here = level == k;
-        const float4 colour = sampleLevels<Fetch>(place, k, fraction, here.bits() & waiting);
-        for (int c = 0; c < 4; ++c) result[c] = select(here, colour[c], result[c]);
-        waiting &= ~here.bits();
-    }
-    return result;
+    result = sampleLevels<Fetch>(SomePlace{sampler, texture, place...}, level, fraction, wantedLanes() & kAllLanes);
 }
 
 // At `lod`, in 0..levels - 1 with kLodBits of fraction.
@@ -219,7 +242,11 @@ template <class Fetch, class SomePlace>
     const Int fraction = lod & (kLodOne - 1);
     if (((level != guess).bits() & wantedLanes()) == 0) [[likely]]
         return sampleLevels<Fetch>(place, guess, fraction, wantedLanes());
-    return sampleSeveralLevels<Fetch>(place, level, fraction);
+    float4 result;
+    place.withLanes([&](auto... lanes) __attribute__((always_inline)) {
+        sampleSeveralLevels<Fetch, SomePlace>(result, place.sampler, place.texture, level, fraction, lanes...);
+    });
+    return result;
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -73,6 +73,9 @@ public:
     // (y + 1) * rowTexels() + x + 1 from here; x = -1..width and y = -1..height exist.
     const std::byte* texels() const { return lines.data()->bytes; }
 
+    // The one above it.
+    const std::byte* texelsAbove() const { return texels() + strideInBytes; }
+
     // The channels of a texel (x = -1..width, y = -1..height), to write or read one at a time. Channel is std::uint8_t,
     // std::uint16_t or float, as the format says.
     template <class Channel>

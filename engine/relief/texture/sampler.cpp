@@ -26,14 +26,14 @@ inline const Texture& textureOf(const sampler2D& s)
 template <class Fetch, class Modes>
 [[gnu::noinline]] void finestIn(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v)
 {
-    result = Fetch::toUnit(sampleLevel<Fetch>(Place<Modes>(s, texture, u, v), texture.level(0)));
+    result = Fetch::toUnit(sampleLevel<Fetch>(placeOn<Modes>(s, texture, u, v), texture.level(0)));
 }
 
 template <class Fetch, class Modes>
 [[gnu::noinline]] void mipChainIn(float4& result, const sampler2D& s, const Texture& texture, Float u, Float v, Int lod,
                                   int guess)
 {
-    result = Fetch::toUnit(sampleMipLevels<Fetch>(Place<Modes>(s, texture, u, v), lod, guess));
+    result = Fetch::toUnit(sampleMipLevels<Fetch>(placeOn<Modes>(s, texture, u, v), lod, guess));
 }
 
 // Calls one of these: `function` names it for a texel format and address modes, as in finestIn<Fetch, Modes>.
@@ -208,7 +208,7 @@ template <class Fetch, class Modes>
     const auto finest = [&] { finestIn<Fetch, Modes>(result, s, texture, u, v); };
     const auto mipChain = [&](Int lod, int guess) __attribute__((always_inline))
     {
-        result = Fetch::toUnit(sampleMipLevels<Fetch>(Place<Modes>(s, texture, u, v), lod, guess));
+        result = Fetch::toUnit(sampleMipLevels<Fetch>(placeOn<Modes>(s, texture, u, v), lod, guess));
     };
     const auto watched = [&](Int fixed) { sampleWatched(result, s, texture, u, v, fixed); };
     sampleIsotropic(s, texture, gradientsOf(u, v), 0.0f, finest, mipChain, watched);

@@ -71,7 +71,7 @@ TexelTrace texelAt(const sampler2D& s, const Texture& texture, const MipLevel& l
 LevelTrace levelAt(const sampler2D& s, const Texture& texture, int number, float u, float v)
 {
     const MipLevel& level = texture.level(number);
-    const Place<AnyModes> place(s, texture, Float(u), Float(v));
+    const Place<AnyModes> place = placeOn<AnyModes>(s, texture, Float(u), Float(v));
     LevelTrace trace{};
     trace.level = number;
     trace.width = level.width();
