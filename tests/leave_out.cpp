@@ -382,6 +382,60 @@ TEST_CASE("leave out: a program is not run where no target keeps its colours, an
     CHECK(decided.blocksShaded > 0);
 }
 
+TEST_CASE("leave out: a program that ends where it has thrown all of a block away draws the same, and fetches less")
+{
+    struct ThrowsAway
+    {
+        bool ends;
+        float until;  // this x nothing is left
+        sampler2D texture = {.texture = &Texture::white()};
+
+        float4 operator()(const Interpolated& i, Discard& discard) const
+        {
+            discard(i.position.x < until);
+            if (ends && discard.all()) return 0.0f;
+            return tex2D(texture, i.value.xy()) * i.value;
+        }
+    };
+    Mesh whole;
+    addTriangle(whole, {{-1, -1, 0.5f, 1}, glm::vec4(0.25f)}, {{-1, 3, 0.5f, 1}, glm::vec4(0.5f)},
+                {{3, -1, 0.5f, 1}, glm::vec4(1.0f)});
+    const auto draw = [&](const ThrowsAway& program) {
+        Framebuffer target = makeTarget(64, 48);
+        Frame frame(target, {1, kDefaultTileSize});
+        frame.clear(glm::vec4(0.0f));
+        frame.draw(whole, FromClip{}, program);
+        const std::uint64_t fetches = frame.run().fetches.trilinear;
+        return std::pair(fixture::hashOf(target), fetches);
+    };
+    const auto [toTheEnd, allFetches] = draw({false, 32.0f});
+    const auto [early, fetches] = draw({true, 32.0f});
+    CHECK(early == toTheEnd);
+    CHECK(allFetches == 64 * 48);
+    CHECK(fetches == (leavesOut::discarded ? 32 * 48 : 64 * 48));
+    // One pixel of a block is enough for all of them.
+    const auto [oddToTheEnd, oddAll] = draw({false, 31.0f});
+    const auto [oddEarly, oddFetches] = draw({true, 31.0f});
+    CHECK(oddEarly == oddToTheEnd);
+    CHECK(oddAll == 64 * 48);
+    CHECK(oddFetches == (leavesOut::discarded ? (64 - 32 + kBlockWidth) * 48 : 64 * 48));
+}
+
+TEST_CASE("leave out: what is left of a block are the lanes that the program runs for")
+{
+    const ShadingScope scope;
+    Discard discard;
+    CHECK_FALSE(discard.all());
+    discard(Mask::fromBits(0xeu & kAllLanes));
+    CHECK_FALSE(discard.all());
+    shading.activeLanes = 0xfu;
+    CHECK_FALSE(discard.all());
+    discard(Mask::fromBits(0x1u));
+    CHECK(discard.all() == leavesOut::discarded);
+    shading.activeLanes |= kWatched;  // no shortcut while somebody watches
+    CHECK_FALSE(discard.all());
+}
+
 TEST_CASE("leave out: S-1107 a light that does not reach needs no pass, and lights that are off change no bit")
 {
     const Mesh sphere = makeSphere(24, 12);

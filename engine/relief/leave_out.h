@@ -24,7 +24,8 @@ namespace relief::leavesOut {
     each(tiles, "pipeline/frame.cpp", "tiles without triangles are drawn in tile memory")                   \
     each(hidden, "pipeline/draw.cpp", "hidden pixels are shaded")                                           \
     each(emptyQuads, "pipeline/draw.cpp", "a block with few live quads runs by itself")                     \
-    each(colors, "pipeline/draw.cpp", "programs run where no target keeps their colours")
+    each(colors, "pipeline/draw.cpp", "programs run where no target keeps their colours")                   \
+    each(discarded, "pipeline/program.h", "programs go on where they have thrown all of a block away")
 // clang-format on
 
 struct LeftOut

@@ -200,6 +200,7 @@ struct MaskedProgram : Surface<NORMAL_MAP>
     {
         const float4 base = this->baseColor(i);
         discard(base.w < this->material.alphaCutoff);
+        if (discard.all()) return 0.0f;
         return float4(this->lit(i, base.xyz()), 1.0f);
     }
 };

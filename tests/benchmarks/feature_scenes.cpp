@@ -166,6 +166,7 @@ struct LightPixels
         const float2 uv = i.uv;
         const Float depth = tex2D(depths, uv).x;
         discard(depth == 1.0f);  // nothing was drawn there
+        if (discard.all()) return 0.0f;
         const float4 p = mul(worldFromClip, float4(uv.x * 2.0f - 1.0f, uv.y * 2.0f - 1.0f, depth, 1));
         const float3 worldPos = p.xyz() / p.w;
         const float3 normal = normalize(tex2D(normals, uv).xyz() * 2.0f - 1.0f);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "relief/hlsl/signature.h"
+#include "relief/leave_out.h"
 #include "relief/pipeline/interpolate.h"
 #include "relief/pipeline/raster.h"
 #include "relief/pipeline/shared_block.h"
@@ -17,11 +18,18 @@
 
 namespace relief::inline RELIEF_WIDTH {
 
-// A fragment program that takes this as its second parameter may throw pixels away: discard(alpha < 0.5f).
+// A fragment program that takes this as its second parameter may throw pixels away:
+//
+//     discard(color.a < 0.5f);
+//     if (discard.all()) return 0.0f;  // no pixel of this block is left: leave out the rest
 class Discard
 {
 public:
     void operator()(Mask where) { discarded |= where; }
+
+    // No pixel is left of those that the program runs for.
+    bool all() const { return leavesOut::discarded && (shading.activeLanes & ~discarded.bits()) == 0; }
+
     Mask discarded = false;
 };
 
