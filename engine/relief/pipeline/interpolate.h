@@ -83,6 +83,15 @@ private:
     double largeStepX[3], largeStepY[3], largeSum;
 };
 
+// The pixels of a block. In one that quads of several triangles share, each is in its own triangle.
+struct BlockPixels
+{
+    Float edge[3];      // the edge functions at their centres
+    Float centroid[3];  // and at their centroids: the centres, where a pixel has one sample
+    Int x, y;           // on the target
+    unsigned covered;   // the lanes whose pixels' centres are in the triangle
+};
+
 // What follows from the edge values of one block.
 struct BlockWeights
 {
@@ -216,24 +225,22 @@ inline Float interpolated(Interpolation how, float a, float b, float c, const Bl
                                           : corners.perspective(0, weights);
 }
 
-// Fills in a fragment program's input. What the program does not read, the compiler leaves out. `centroid` holds the
-// edge functions at the centroids: the pixels' centres, where a pixel has one sample. `isFront`: whether the triangle
-// is seen from its front.
+// Fills in a fragment program's input. What the program does not read, the compiler leaves out. `isFront`: whether the
+// triangle is seen from its front.
 template <class Interpolators, int components>
-Interpolators interpolate(const TriangleWeights& triangle, const CornerComponents<components>& corners,
-                          const Float (&edge)[3], const Float (&centroid)[3], bool isFront, unsigned covered, int x,
-                          int y)
+Interpolators interpolate(const TriangleWeights& triangle, const CornerComponents<components>& corners, bool isFront,
+                          const BlockPixels& pixels)
 {
-    const BlockWeights w = triangle.of(edge, covered);
+    const BlockWeights w = triangle.of(pixels.edge, pixels.covered);
     BlockWeights atCentroid;
-    if constexpr (usesCentroid(FieldsOf<Interpolators>{})) atCentroid = triangle.of(centroid, covered);
+    if constexpr (usesCentroid(FieldsOf<Interpolators>{})) atCentroid = triangle.of(pixels.centroid, pixels.covered);
     Interpolators result;
     int slot = 0;
     forEachField(result, [&]<class Field>(Field& field) {
         if constexpr (Field::kIsPosition) {
-            field.x = Float(laneXs() + x) + 0.5f;
-            field.y = Float(laneYs() + y) + 0.5f;
-            field.z = triangle.positionZ(edge, covered);
+            field.x = Float(pixels.x) + 0.5f;
+            field.y = Float(pixels.y) + 0.5f;
+            field.z = triangle.positionZ(pixels.edge, pixels.covered);
             field.w = triangle.clipW(w);
         } else if constexpr (Field::kSystemValue == SystemValue::facing) {
             field = Field(Mask(isFront));

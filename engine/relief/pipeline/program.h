@@ -4,6 +4,7 @@
 //     VertexData  ->  vertex program  ->  Interpolators  ->  fragment program  ->  float4, or a struct of outputs
 #pragma once
 
+#include <bit>
 #include <memory>
 #include <span>
 #include <type_traits>
@@ -236,18 +237,15 @@ RELIEF_FLATTEN void shadeVertices(const void* vertexProgram, VertexLanes& vertic
     });
 }
 
-// A fragment program's input for a block. Where nothing is interpolated, SV_POSITION alone may want to know the edges:
-// the compiler sees whether it does.
-template <class Interpolators, int components>
-Interpolators inputOf(const ShadedBlock& block, const TriangleWeights& triangle,
-                      const CornerComponents<components>& corners, bool isFront, const TriangleEdges* edges)
+inline BlockPixels pixelsOf(const ShadedBlock& block)
 {
-    Float edge[3] = {Float::load(block.edge[0]), Float::load(block.edge[1]), Float::load(block.edge[2])};
-    if constexpr (components == 0) edges->at(block.covered.x, block.covered.y, edge);
+    const auto& e = block.edge;
     const auto& c = block.centroid;
-    const Float centroid[3] = {Float::load(c[0]), Float::load(c[1]), Float::load(c[2])};
-    return interpolate<Interpolators>(triangle, corners, edge, centroid, isFront, block.covered.coverage,
-                                      block.covered.x, block.covered.y);
+    return {{Float::load(e[0]), Float::load(e[1]), Float::load(e[2])},
+            {Float::load(c[0]), Float::load(c[1]), Float::load(c[2])},
+            laneXs() + block.covered.x,
+            laneYs() + block.covered.y,
+            block.covered.coverage};
 }
 
 template <class Interpolators, class FragmentProgram, int components>
@@ -255,7 +253,13 @@ void shadeBlock(const FragmentProgram& program, const TriangleWeights& triangle,
                 const CornerComponents<components>& corners, bool isFront, ShadedBlock& block)
 {
     shading.activeLanes = block.quads;
-    const auto input = [&] { return inputOf<Interpolators>(block, triangle, corners, isFront, &edges); };
+    const auto input = [&] {
+        BlockPixels pixels = pixelsOf(block);
+        // Where nothing is interpolated, SV_POSITION alone may want to know the edges: the compiler sees whether it
+        // does.
+        if constexpr (components == 0) edges.at(block.covered.x, block.covered.y, pixels.edge);
+        return interpolate<Interpolators>(triangle, corners, isFront, pixels);
+    };
     if constexpr (FragmentTypesOf<FragmentProgram, Interpolators>::kDiscards) {
         Discard discard;
         storeOutputs(program(input(), discard), block);
@@ -300,22 +304,42 @@ void forEachPart(const SharedBlock& shared, ShadedBlock* blocks, const Visit& vi
     }
 }
 
-// Puts one part's input into that of the whole.
-template <class Interpolators>
-void putInto(Interpolators& whole, Interpolators& part, const WayOfQuads& way)
+// The pixels of a shared block; lanes that are no part's are like the first one's. Calls tell(triangle, its lanes) for
+// each part.
+template <class Tell>
+BlockPixels pixelsOf(const SharedBlock& shared, ShadedBlock* blocks, const Tell& tell)
 {
-    const auto put = [&way]<class F>(F& to, F& from) {
+    BlockPixels whole = pixelsOf(blocks[shared.parts[0]]);
+    forEachPart(shared, blocks, [&](const ShadedBlock& block, const WayOfQuads& way) {
+        const BlockPixels part = pixelsOf(block);
+        for (int k = 0; k < 3; ++k) {
+            whole.edge[k] = way.there(part.edge[k], whole.edge[k]);
+            whole.centroid[k] = way.there(part.centroid[k], whole.centroid[k]);
+        }
+        whole.x = way.there(part.x, whole.x);
+        whole.y = way.there(part.y, whole.y);
+        whole.covered = way.there(Mask::fromBits(part.covered), Mask::fromBits(whole.covered)).bits();
+        tell(block.covered.triangle, way.lanes());
+    });
+    return whole;
+}
+
+// Takes these lanes of another input.
+template <class Interpolators>
+void takeLanes(Interpolators& input, Interpolators& other, Mask lanes)
+{
+    const auto take = [lanes]<class F>(F& to, F& from) {
         if constexpr (F::kSystemValue == SystemValue::facing) {
-            to = F(way.there(select(from, Int(1), Int(0)), select(to, Int(1), Int(0))) != 0);
+            to = F((lanes & from) | (!lanes & to));
         } else {
             using Value = typename F::Value;
             for (int c = 0; c < kComponents<Value>; ++c) {
-                auto& lanes = component(static_cast<Value&>(to), c);
-                lanes = way.there(component(static_cast<Value&>(from), c), lanes);
+                auto& its = component(static_cast<Value&>(to), c);
+                its = select(lanes, component(static_cast<Value&>(from), c), its);
             }
         }
     };
-    withFields(whole, [&](auto&... to) { withFields(part, [&](auto&... from) { (put(to, from), ...); }); });
+    withFields(input, [&](auto&... to) { withFields(other, [&](auto&... from) { (take(to, from), ...); }); });
 }
 
 // A function of its own: with blocks of both kinds in one, its input would come from two places, and those that are not
@@ -330,21 +354,29 @@ RELIEF_FLATTEN void shadeShared(const void* fragmentProgram, std::span<const Sha
     CornerComponents<interpolatedComponents(FieldsOf<Interpolators>{})> components[kLanes];
     unsigned known = 0;
     for (const SharedBlock& block : shared) {
-        Interpolators input;
-        unsigned lanes = 0;
-        forEachPart(block, blocks, [&](const ShadedBlock& part, const WayOfQuads& way) {
-            const int triangle = part.covered.triangle;
+        unsigned lanesOf[kLanes], seen = 0;
+        const BlockPixels pixels = pixelsOf(block, blocks, [&](int triangle, unsigned lanes) {
+            lanesOf[triangle] = (seen >> triangle & 1u) != 0 ? lanesOf[triangle] | lanes : lanes;
+            seen |= 1u << triangle;
+        });
+        const auto inputOf = [&](int triangle) {
             if ((known >> triangle & 1u) == 0) {
                 const auto& [a, b, c] = corners[triangle].components;
                 components[triangle].set(a, b, c);
                 triangles[triangle].set(batch, triangle);
                 known |= 1u << triangle;
             }
-            Interpolators its = inputOf<Interpolators>(part, triangles[triangle], components[triangle],
-                                                       corners[triangle].isFront, nullptr);
-            putInto(input, its, way);
-            lanes |= way.lanes();
-        });
+            return interpolate<Interpolators>(triangles[triangle], components[triangle], corners[triangle].isFront,
+                                              pixels);
+        };
+        Interpolators input = inputOf(std::countr_zero(seen));
+        unsigned lanes = lanesOf[std::countr_zero(seen)];
+        for (unsigned rest = seen & (seen - 1); rest != 0; rest &= rest - 1) {
+            const int triangle = std::countr_zero(rest);
+            Interpolators other = inputOf(triangle);
+            takeLanes(input, other, Mask::fromBits(lanesOf[triangle]));
+            lanes |= lanesOf[triangle];
+        }
         shading.activeLanes = lanes;
         auto result = program(std::move(input));
         forEachPart(block, blocks, [&](ShadedBlock& part, const WayOfQuads& way) {

@@ -57,6 +57,10 @@ public:
     // The shared block with these quads in it.
     Float there(Float block, Float shared) const { return select(here, permute(block, from), shared); }
     Int there(Int block, Int shared) const { return select(here, permute(block, from), shared); }
+    Mask there(Mask block, Mask shared) const
+    {
+        return there(select(block, Int(1), Int(0)), select(shared, Int(1), Int(0))) != 0;
+    }
 
     // The shared block's lanes that are these quads' now.
     unsigned lanes() const { return here.bits(); }
