@@ -16,9 +16,9 @@ namespace {
 using leavesOut::LeftOut;
 
 // A stage of each kind: depth, filters, detail textures, three objects and lights, two passes, three planes, one plane,
-// a pass before the picture, a mirror's pixels that are marked without a colour.
-constexpr const char* kSwitchedStages[] = {"0.03", "0.04", "1.15", "1.25", "2.06",
-                                           "3.05", "4.07", "4.11", "5.05", "5.19"};
+// a pass before the picture, a mirror's pixels that are marked without a colour, light where anything was drawn.
+constexpr const char* kSwitchedStages[] = {"0.03", "0.04", "1.15", "1.25", "2.06", "3.05",
+                                           "4.07", "4.11", "5.05", "5.19", "5.20"};
 
 struct Switched
 {

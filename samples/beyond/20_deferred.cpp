@@ -94,6 +94,7 @@ struct LightPixels : DetailedMarble {
 
     float4 operator()(ScreenInterpolators i, Discard& discard) const {
         discard(tex2D(depth, i.uv).x == 1.0f);  // nothing was drawn there
+        if (discard.all()) return 0.0f;         // nor on any pixel of this block: leave out the rest
         const float4 code = tex2D(normals, i.uv);
         const float3 normal = ENCODING == 0   ? normalize(code.xyz() * 2.0f - 1.0f)
                               : ENCODING == 1 ? FromOctahedral(code.xy())
