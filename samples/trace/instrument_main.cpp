@@ -41,7 +41,8 @@ int main(int argc, char** argv)
     for (int i = 1; i + 1 < argc; ++i) {
         const fs::path from = argv[i];
         const std::string name = from.filename().string();
-        const auto copied = [](const fs::path& file, const fs::path& there, const std::string& itsName, bool instrument) {
+        const auto copied = [](const fs::path& file, const fs::path& there, const std::string& itsName,
+                               bool instrument) {
             const bool done = copy(file, there, itsName, instrument);
             if (!done) std::fprintf(stderr, "relief_instrument: %s: cannot be copied\n", file.c_str());
             return done;
