@@ -270,6 +270,11 @@ void fill(MipLevel& level, std::span<const MipLevel> faces)
 
 }  // namespace
 
+CubeMap::CubeMap(const CubeMap& other) : texelFormat(other.texelFormat), levels(other.levels), table(other.table)
+{
+    for (int k = 0; k < levelCount(); ++k) table.setTexels(k, level(k));
+}
+
 // Puts six faces above each other, as the next level.
 void CubeMap::add(std::span<const MipLevel> faces)
 {
@@ -277,13 +282,19 @@ void CubeMap::add(std::span<const MipLevel> faces)
     MipLevel& level = levels.emplace_back(texelFormat, side, rowOf(kCubeFaces, -2, side));
     switch (texelFormat) {
         case TexelFormat::rgba8:
-            return fill<std::uint8_t>(level, faces);
+            fill<std::uint8_t>(level, faces);
+            break;
         case TexelFormat::rgba16:
-            return fill<std::uint16_t>(level, faces);
+            fill<std::uint16_t>(level, faces);
+            break;
         case TexelFormat::rgba32Float:
         case TexelFormat::r32Float:  // which no picture gives
-            return fill<float>(level, faces);
+            fill<float>(level, faces);
+            break;
     }
+    const int number = levelCount() - 1;
+    table.setSize(texelFormat, number, level.width(), level.height());
+    table.setTexels(number, level);
 }
 
 CubeMap CubeMap::fromFinest(TexelFormat format, std::vector<MipLevel> faces)

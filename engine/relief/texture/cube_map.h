@@ -52,6 +52,11 @@ public:
     // or more than go down to a side of 1.
     static Expected<CubeMap> fromLevels(std::span<const ImageFile> strips, ColorSpace meaning);
 
+    CubeMap(const CubeMap& other);
+    CubeMap(CubeMap&&) noexcept = default;
+    CubeMap& operator=(const CubeMap& other) { return *this = CubeMap(other); }
+    CubeMap& operator=(CubeMap&&) noexcept = default;
+
     static const CubeMap& white();  // one texel a face: (1, 1, 1, 1)
 
     int side() const { return levels[0].width(); }  // of level 0, in texels
@@ -61,6 +66,8 @@ public:
     // The six faces of level k in 0..levelCount() - 1 above each other, frames included: texel (x, y) of face f,
     // counted from the lower left, is (x, rowOf(f, y, side)), for x and y = -1..side.
     const MipLevel& level(int k) const { return levels[static_cast<std::size_t>(k)]; }
+    const LevelTable& levelTable() const { return table; }
+    int levelsBuilt() const { return levelCount(); }
     static constexpr int rowOf(int face, int y, int side) { return face * (side + 2) + y; }
 
     // A texel as a fetch gives it, x and y from the lower left; -1 and the level's side are the frame.
@@ -73,6 +80,7 @@ private:
 
     TexelFormat texelFormat;
     std::vector<MipLevel> levels;
+    LevelTable table;
 };
 
 }  // namespace relief

@@ -2,8 +2,6 @@
 // then fetch at once, however many levels there are.
 #pragma once
 
-#include <bit>
-
 #include "relief/texture/mip_chain.h"
 
 namespace relief::inline RELIEF_WIDTH {
@@ -20,21 +18,19 @@ struct LaneTexels
 class LaneLevels
 {
 public:
-    // `number` says which level is each lane's; others than `lanes`, of which there is one at least, get any of theirs.
+    // `number` says which level is each lane's; others than `lanes` get level 0.
     template <class Levels>  // a Texture, a CubeMap
     LaneLevels(const Levels& of, Int number, unsigned lanes)
     {
+        number = select(Mask::fromBits(lanes), number, Int(0));
         number.store(numbers);
-        const int first = numbers[std::countr_zero(lanes)];
-        number = select(Mask::fromBits(lanes), number, first);
-        number.store(numbers);
-        set(first, of.level(first), true);
-        for (unsigned waiting = lanes & ~(number == first).bits(); waiting != 0;) {
-            const int next = numbers[std::countr_zero(waiting)];
-            const Mask here = number == next;
-            set(next, of.level(next), here);
-            waiting &= ~here.bits();
-        }
+        if (any(number >= of.levelsBuilt())) [[unlikely]]
+            build(of);
+        table = &of.levelTable();
+        columns = sides(lookUp(table->width, number));
+        rows = sides(lookUp(table->height, number));
+        stride = lookUp(table->rowTexels, number);
+        opaque = table->isOpaque[of.levelsBuilt() - 1];
     }
 
     Int width() const { return columns.texels; }
@@ -42,28 +38,33 @@ public:
     const TextureSides& sideU() const { return columns; }
     const TextureSides& sideV() const { return rows; }
     Int rowTexels() const { return stride; }
-    LaneTexels texels() const { return {lower, numbers}; }
-    LaneTexels texelsAbove() const { return {upper, numbers}; }
+    LaneTexels texels() const { return {table->texels, numbers}; }
+    LaneTexels texelsAbove() const { return {table->texelsAbove, numbers}; }
     bool isOpaque() const { return opaque; }  // all of them
 
 private:
-    void set(int number, const MipLevel& level, Mask here)
+    template <class Levels>
+    [[gnu::noinline, gnu::cold]] void build(const Levels& of) const
     {
-        columns.texels = select(here, level.width(), columns.texels);
-        columns.subtexels = select(here, level.sideU().subtexels, columns.subtexels);
-        rows.texels = select(here, level.height(), rows.texels);
-        rows.subtexels = select(here, level.sideV().subtexels, rows.subtexels);
-        stride = select(here, level.rowTexels(), stride);
-        lower[number] = level.texels();
-        upper[number] = level.texelsAbove();
-        opaque &= level.isOpaque();
+        for (const std::int32_t number : numbers) (void)of.level(number);
     }
 
-    TextureSides columns{0, 0.0f}, rows{0, 0.0f};
-    Int stride = 0;
+    static TextureSides sides(Int texels) { return {texels, Float(texels) * static_cast<float>(kSubtexels)}; }
+
+    // Of a table by level.
+    static Int lookUp(const std::int32_t (&byLevel)[LevelTable::kSize], Int number)
+    {
+        Int result = permute(Int::load(byLevel), number & (kLanes - 1));
+        for (int first = kLanes; first < LevelTable::kSize; first += kLanes)
+            result = select(number >= first, permute(Int::load(byLevel + first), number & (kLanes - 1)), result);
+        return result;
+    }
+
+    const LevelTable* table;
+    TextureSides columns, rows;
+    Int stride;
     alignas(Int) std::int32_t numbers[kLanes];
-    const std::byte *lower[kMaxMipLevels], *upper[kMaxMipLevels];
-    bool opaque = true;
+    bool opaque;
 };
 
 }  // namespace relief::inline RELIEF_WIDTH

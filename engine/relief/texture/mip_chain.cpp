@@ -172,6 +172,20 @@ void MipLevel::fillFrame()
              (texelFormat == TexelFormat::rgba16 && hasFullAlpha<std::uint16_t>(*this));
 }
 
+void LevelTable::setSize(TexelFormat format, int number, int itsWidth, int itsHeight)
+{
+    width[number] = itsWidth;
+    height[number] = itsHeight;
+    rowTexels[number] = paddedRowTexels(format, itsWidth);
+}
+
+void LevelTable::setTexels(int number, const MipLevel& level)
+{
+    texels[number] = level.texels();
+    texelsAbove[number] = level.texelsAbove();
+    isOpaque[number] = level.isOpaque() && (number == 0 || isOpaque[number - 1]);
+}
+
 MipLevel coarserLevel(TexelFormat format, const MipLevel& fine)
 {
     const DefaultFloatingPoint environment;

@@ -121,6 +121,23 @@ private:
     bool opaque = false;
 };
 
+// What a fetch needs of all levels of a texture, by number: lanes that are on several look it up (lane_levels.h).
+struct LevelTable
+{
+    static constexpr int kSize = 16;
+    static_assert(kSize >= kMaxMipLevels);
+
+    alignas(64) std::int32_t width[kSize]{}, height[kSize]{}, rowTexels[kSize]{};
+    const std::byte *texels[kSize]{}, *texelsAbove[kSize]{};
+    bool isOpaque[kSize]{};  // this level and all before it
+
+    // To be called for every level before anybody looks: all sizes are looked up together.
+    void setSize(TexelFormat format, int number, int itsWidth, int itsHeight);
+
+    // The level is complete, and all before it are.
+    void setTexels(int number, const MipLevel& level);
+};
+
 // The next coarser level. Every coarse texel is the average of the fine area it covers: 2x2 texels where both sides
 // are even; where a side is odd, 3 texels across with weights that shift from one end to the other, so that no part of
 // the picture counts more than another. Sums are exact (64-bit integers, doubles for floats); UNORM is rounded to

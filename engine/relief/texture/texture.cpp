@@ -105,14 +105,18 @@ Texture::Texture(TexelFormat format, int width, int height, MakeLevel make)
       levels(mipLevelCount(width, height))
 {
     chain->make = std::move(make);
+    for (int k = 0; k < levels; ++k) {
+        chain->table.setSize(format, k, width, height);
+        width = nextSide(width);
+        height = nextSide(height);
+    }
 }
 
 Texture::Texture(TexelFormat format, MipLevel finest)
     : Texture(format, finest.width(), finest.height(),
               [format](int, const MipLevel* finer) { return coarserLevel(format, *finer); })
 {
-    chain->levels[0] = std::move(finest);
-    chain->published[0].store(&*chain->levels[0], std::memory_order_release);
+    add(std::move(finest));
     firstTexel = texel(0, 0);
 }
 
@@ -127,21 +131,20 @@ const MipLevel& Texture::buildLevel(int k) const
     const ShadingScope scope;  // a block may ask for the level while it is shaded
     const DefaultFloatingPoint environment;
     const std::lock_guard lock(chain->building);
-    for (int i = 0; i <= k; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        if (chain->levels[at]) continue;
-        chain->levels[at] = chain->make(i, i > 0 ? &*chain->levels[at - 1] : nullptr);
-        chain->published[at].store(&*chain->levels[at], std::memory_order_release);
+    for (int i = levelsBuilt(); i <= k; ++i) {
+        add(chain->make(i, i > 0 ? &*chain->levels[static_cast<std::size_t>(i) - 1] : nullptr));
         if (i == levels - 1) chain->make = nullptr;  // with what it kept alive
     }
     return *chain->levels[static_cast<std::size_t>(k)];
 }
 
-int Texture::levelsBuilt() const
+void Texture::add(MipLevel level) const
 {
-    int built = 0;
-    while (built < levels && chain->published[static_cast<std::size_t>(built)].load(std::memory_order_acquire)) ++built;
-    return built;
+    const int number = levelsBuilt();
+    std::optional<MipLevel>& itsPlace = chain->levels[static_cast<std::size_t>(number)];
+    itsPlace = std::move(level);
+    chain->table.setTexels(number, *itsPlace);
+    chain->built.store(number + 1, std::memory_order_release);
 }
 
 }  // namespace relief

@@ -74,20 +74,23 @@ public:
     // may ask at once. The reference stays valid as long as the texture, also when the texture is moved.
     const MipLevel& level(int k) const
     {
-        const MipLevel* built = chain->published[static_cast<std::size_t>(k)].load(std::memory_order_acquire);
-        return built ? *built : buildLevel(k);
+        return k < levelsBuilt() ? *chain->levels[static_cast<std::size_t>(k)] : buildLevel(k);
     }
 
     // How many levels exist in memory by now: 1 for a texture that was only ever magnified, 0 for one from fromLevels
     // that was never sampled.
-    int levelsBuilt() const;
+    int levelsBuilt() const { return chain->built.load(std::memory_order_acquire); }
+
+    // Of these.
+    const LevelTable& levelTable() const { return chain->table; }
 
 private:
     // Behind a pointer, so that a texture can be moved although other threads hold on to its levels.
     struct Chain
     {
-        std::array<std::atomic<const MipLevel*>, kMaxMipLevels> published{};
+        std::atomic<int> built{0};
         std::array<std::optional<MipLevel>, kMaxMipLevels> levels;  // written under the mutex, once each
+        LevelTable table;                                           // its texels, too
         MakeLevel make;
         std::mutex building;
     };
@@ -95,6 +98,7 @@ private:
     Texture(TexelFormat format, int width, int height, MakeLevel make);
     Texture(TexelFormat format, MipLevel finest);  // coarser levels by coarserLevel()
     const MipLevel& buildLevel(int k) const;
+    void add(MipLevel level) const;
 
     std::unique_ptr<Chain> chain;
     glm::vec4 firstTexel, sizes;
