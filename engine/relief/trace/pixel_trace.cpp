@@ -201,6 +201,7 @@ public:
                 const TriangleCorners* corners)
     {
         if (current == nullptr || block.covered.x != at.blockX || block.covered.y != at.blockY) return;
+        if ((block.quads & at.bit()) == 0) return;  // it runs for other quads of the block
         current->ran = true;
         setInterpolators(*own.programs, block, corners[block.covered.triangle]);
 
@@ -218,20 +219,19 @@ public:
         }
         shading.fetches = fetches;
 
-        // The frame's block holds anything in the quads that it was not shaded for.
-        const bool isKnown = (block.quads & at.bit()) != 0;
         const Outputs& outputs = own.programs->outputs;
         const auto lane = static_cast<std::size_t>(at.lane);
+        if (own.programs->discards) {
+            current->discarded = (copy.discarded & at.bit()) != 0;
+            expect(((copy.discarded ^ block.discarded) & at.bit()) == 0, "what it discards");
+        }
         if ((outputs.targets & 1u) != 0) {
             const Float color[4] = {Float::load(copy.color[0]), Float::load(copy.color[1]), Float::load(copy.color[2]),
                                     Float::load(copy.color[3])};
             current->color = quadOf({ValueKind::number, 4, 1, color}, at.quad);
+            // What is thrown away has no colour: this quad may be done before the frame's block was.
             for (const auto& c : {0, 1, 2, 3})
-                expect(!isKnown || sameBits(copy.color[c][lane], block.color[c][lane]), "its colour");
-        }
-        if (own.programs->discards) {
-            current->discarded = (copy.discarded & at.bit()) != 0;
-            expect(!isKnown || ((copy.discarded ^ block.discarded) & at.bit()) == 0, "what it discards");
+                expect(current->discarded || sameBits(copy.color[c][lane], block.color[c][lane]), "its colour");
         }
         if (outputs.depth) current->depthOut = more.depth[lane];
         if (outputs.coverage) current->coverageOut = static_cast<std::uint32_t>(more.coverage[lane]);
