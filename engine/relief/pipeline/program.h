@@ -354,28 +354,24 @@ RELIEF_FLATTEN void shadeShared(const void* fragmentProgram, std::span<const Sha
     CornerComponents<interpolatedComponents(FieldsOf<Interpolators>{})> components[kLanes];
     unsigned known = 0;
     for (const SharedBlock& block : shared) {
-        unsigned lanesOf[kLanes], seen = 0;
-        const BlockPixels pixels = pixelsOf(block, blocks, [&](int triangle, unsigned lanes) {
-            lanesOf[triangle] = (seen >> triangle & 1u) != 0 ? lanesOf[triangle] | lanes : lanes;
+        unsigned lanesOf[kLanes] = {}, seen = 0, lanes = 0;
+        const BlockPixels pixels = pixelsOf(block, blocks, [&](int triangle, unsigned its) {
+            lanesOf[triangle] |= its;
             seen |= 1u << triangle;
+            lanes |= its;
         });
-        const auto inputOf = [&](int triangle) {
+        Interpolators input;
+        for (unsigned rest = seen; rest != 0; rest &= rest - 1) {
+            const int triangle = std::countr_zero(rest);
             if ((known >> triangle & 1u) == 0) {
                 const auto& [a, b, c] = corners[triangle].components;
                 components[triangle].set(a, b, c);
                 triangles[triangle].set(batch, triangle);
                 known |= 1u << triangle;
             }
-            return interpolate<Interpolators>(triangles[triangle], components[triangle], corners[triangle].isFront,
-                                              pixels);
-        };
-        Interpolators input = inputOf(std::countr_zero(seen));
-        unsigned lanes = lanesOf[std::countr_zero(seen)];
-        for (unsigned rest = seen & (seen - 1); rest != 0; rest &= rest - 1) {
-            const int triangle = std::countr_zero(rest);
-            Interpolators other = inputOf(triangle);
-            takeLanes(input, other, Mask::fromBits(lanesOf[triangle]));
-            lanes |= lanesOf[triangle];
+            Interpolators its = interpolate<Interpolators>(triangles[triangle], components[triangle],
+                                                           corners[triangle].isFront, pixels);
+            takeLanes(input, its, Mask::fromBits(lanesOf[triangle]));
         }
         shading.activeLanes = lanes;
         auto result = program(std::move(input));

@@ -44,7 +44,7 @@ struct TextureSide
     float subtexels;
 };
 
-// One for each lane, where lanes are on textures, or levels of one, of different sizes.
+// One for each lane, where lanes are on levels of different sizes.
 struct TextureSides
 {
     Int texels;
