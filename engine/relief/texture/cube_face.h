@@ -53,13 +53,16 @@ public:
         const Mask backward = along(direction) < 0.0f;
         sign = select(backward, Float(-1.0f), Float(1.0f));
         number = select(isZ, Int(4), select(isY, Int(2), Int(0))) + select(backward, Int(1), Int(0));
+        isOneForAll = all(number == number[0]);
     }
 
     Int face() const { return number; }  // 0..5
 
     // A vector's components along the face's right, up and middle.
-    float3 components(const float3& v) const
+    [[gnu::always_inline]] float3 components(const float3& v) const
     {
+        if (isOneForAll) [[likely]]
+            return componentsOn(number[0], v);
         const Float right = select(isY, v.x, sign * select(isZ, v.x, -v.z));
         const Float up = select(isY, -(sign * v.z), v.y);
         return {right, up, sign * along(v)};
@@ -68,9 +71,29 @@ public:
 private:
     Float along(const float3& v) const { return select(isZ, v.z, select(isY, v.y, v.x)); }
 
+    // The same where all lanes are on one face, as they mostly are: nothing is selected.
+    static float3 componentsOn(int face, const float3& v)
+    {
+        switch (face) {
+            case 0:
+                return {-v.z, v.y, v.x};
+            case 1:
+                return {v.z, v.y, -v.x};
+            case 2:
+                return {v.x, -v.z, v.y};
+            case 3:
+                return {v.x, v.z, -v.y};
+            case 4:
+                return v;
+            default:
+                return {-v.x, v.y, -v.z};
+        }
+    }
+
     Mask isY, isZ;
     Float sign;
     Int number;
+    bool isOneForAll;
 };
 
 // The direction of a place on a face, from the cube's middle to the cube of side 2: s and t are -1..1, to the right and

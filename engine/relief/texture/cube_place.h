@@ -19,6 +19,9 @@ inline const CubeMap& textureOf(const samplerCUBE& s)
 inline float3 finiteDirection(const float3& direction)
 {
     constexpr float largest = std::numeric_limits<float>::max();
+    const Float sum = abs(direction.x) + abs(direction.y) + abs(direction.z);
+    if (all((sum > 0.0f) & (sum <= largest))) [[likely]]
+        return direction;
     const auto number = [](Float x) { return clamp(select(isnan(x), Float(0.0f), x), -largest, largest); };
     const float3 d = {number(direction.x), number(direction.y), number(direction.z)};
     const Mask isZero = (d.x == 0.0f) & (d.y == 0.0f) & (d.z == 0.0f);
@@ -49,18 +52,17 @@ struct Meeting
     Float middle, s, t;
 };
 
-inline bool usesMipLevels(const samplerCUBE& s)
+inline bool usesMipLevels(const samplerCUBE& s, const CubeMap& texture)
 {
-    return s.mipmaps && textureOf(s).levelCount() > 1;
+    return s.mipmaps && texture.levelCount() > 1;
 }
 
-// By the longer of the direction's two changes, in texels of level 0.
-[[gnu::always_inline]] inline Float levelByChange(const samplerCUBE& s, const Meeting& at, const float3& dx,
-                                                  const float3& dy, Float bias)
+// The square of the longer of the direction's two changes, in texels of level 0.
+[[gnu::always_inline]] inline Float squareOfChange(const CubeMap& texture, const Meeting& at, const float3& dx,
+                                                   const float3& dy)
 {
-    const float perUnit = 0.5f * static_cast<float>(textureOf(s).side());
-    const Float square = longestSquare(at.change(dx) * perUnit, at.change(dy) * perUnit);
-    return limitedIsotropicLevel(square) + limitBias(s, bias);
+    const float perUnit = 0.5f * static_cast<float>(texture.side());
+    return longestSquare(at.change(dx) * perUnit, at.change(dy) * perUnit);
 }
 
 // A place on a cube map, for filter.h.
@@ -115,9 +117,9 @@ bool leavesOutAlpha(const CubePlace&, const Level& level)
     return leavesOut::alpha && level.isOpaque();
 }
 
-inline CubePlace placeOn(const samplerCUBE& s, const Meeting& at)
+inline CubePlace placeOn(const samplerCUBE& s, const CubeMap& texture, const Meeting& at)
 {
-    return {s, textureOf(s), at.s * 0.5f + 0.5f, at.t * 0.5f + 0.5f, at.face.face()};
+    return {s, texture, at.s * 0.5f + 0.5f, at.t * 0.5f + 0.5f, at.face.face()};
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

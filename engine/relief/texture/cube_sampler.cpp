@@ -9,60 +9,74 @@ namespace relief::inline RELIEF_WIDTH {
 namespace {
 
 template <class Fetch>
-[[gnu::noinline]] float4 sampleIn(const CubePlace& place, Int lod)
+[[gnu::noinline]] void sampleIn(float4& result, const samplerCUBE& s, const CubeMap& texture, Float u, Float v,
+                                Int face, Int lod, int guess)
 {
-    return Fetch::toUnit(sampleMipLevels<Fetch>(place, lod, lod[0] >> kLodBits));
+    result = Fetch::toUnit(sampleMipLevels<Fetch>(CubePlace{s, texture, u, v, face}, lod, guess));
 }
 
-[[gnu::always_inline]] inline float4 sampleAtLevel(const samplerCUBE& s, const Meeting& at, Float lod)
+inline void sampleAtLevel(float4& result, const samplerCUBE& s, const CubeMap& texture, const Meeting& at, Int fixed,
+                          int guess)
 {
-    const CubeMap& texture = textureOf(s);
-    const Int fixed = usesMipLevels(s) ? fixedLevel(s, texture.levelCount(), lod) : Int(0);
     countSample(s);
     countOneLevel(s, (fixed == 0).bits(), lanesOnOneLevel(fixed) & kAllLanes);
     if ((shading.activeLanes & kWatched) != 0) noteLevels(s, fixed);
 
-    const CubePlace place = placeOn(s, at);
-    return withFetch(texture.format(), [&]<class Fetch>() { return sampleIn<Fetch>(place, fixed); });
+    const CubePlace place = placeOn(s, texture, at);
+    withFetch(texture.format(),
+              [&]<class Fetch>() { sampleIn<Fetch>(result, s, texture, place.u, place.v, place.face, fixed, guess); });
 }
 
-[[gnu::always_inline]] inline float4 sampleByChange(const samplerCUBE& s, const float3& direction, const float3& dx,
-                                                    const float3& dy, Float bias)
+inline void sampleFinest(float4& result, const samplerCUBE& s, const CubeMap& texture, const Meeting& at)
 {
-    const Meeting at(direction);
-    return sampleAtLevel(s, at, levelByChange(s, at, dx, dy, bias));
+    sampleAtLevel(result, s, texture, at, 0, 0);
 }
 
-[[gnu::always_inline]] inline float4 sampleByDifferences(const samplerCUBE& s, const float3& direction, Float bias)
+inline void sampleByChange(float4& result, const samplerCUBE& s, const CubeMap& texture, const Meeting& at,
+                           const float3& dx, const float3& dy, Float bias)
 {
-    const float3 d = finiteDirection(direction);
-    if (usesMipLevels(s)) return sampleByChange(s, d, ddx(d), ddy(d), bias);
-    countNoDerivatives();
-    return sampleAtLevel(s, Meeting(d), Float(0.0f));
+    const Float square = squareOfChange(texture, at, dx, dy);
+    const Float lod = limitedIsotropicLevel(square) + limitBias(s, bias);
+    sampleAtLevel(result, s, texture, at, fixedLevel(s, texture.levelCount(), lod),
+                  likelyLevel(s, texture.levelCount(), square));
 }
 
 }  // namespace
 
-float4 texCUBE(const samplerCUBE& s, const float3& direction)
+void detail::sampleCube(float4& result, const samplerCUBE& s, Float x, Float y, Float z, Float bias)
 {
-    return sampleByDifferences(s, direction, 0.0f);
-}
-
-float4 texCUBEbias(const samplerCUBE& s, const float4& directionBias)
-{
-    return sampleByDifferences(s, directionBias.xyz(), directionBias.w);
+    const CubeMap& texture = textureOf(s);
+    const float3 direction = finiteDirection({x, y, z});
+    const Meeting at(direction);
+    if (usesMipLevels(s, texture)) return sampleByChange(result, s, texture, at, ddx(direction), ddy(direction), bias);
+    countNoDerivatives();
+    sampleFinest(result, s, texture, at);
 }
 
 float4 texCUBEgrad(const samplerCUBE& s, const float3& direction, const float3& dx, const float3& dy)
 {
+    const CubeMap& texture = textureOf(s);
+    const Meeting at(finiteDirection(direction));
     countNoDerivatives();
-    return sampleByChange(s, finiteDirection(direction), dx, dy, 0.0f);
+    float4 color;
+    if (usesMipLevels(s, texture)) {
+        sampleByChange(color, s, texture, at, dx, dy, 0.0f);
+    } else {
+        sampleFinest(color, s, texture, at);
+    }
+    return color;
 }
 
 float4 texCUBElod(const samplerCUBE& s, const float4& directionLod)
 {
+    const CubeMap& texture = textureOf(s);
+    const Meeting at(finiteDirection(directionLod.xyz()));
+    const Float lod = directionLod.w + limitBias(s, 0.0f);
+    const bool choosesLevel = usesMipLevels(s, texture);
     countNoDerivatives();
-    return sampleAtLevel(s, Meeting(finiteDirection(directionLod.xyz())), directionLod.w + limitBias(s, 0.0f));
+    float4 color;
+    sampleAtLevel(color, s, texture, at, choosesLevel ? fixedLevel(s, texture.levelCount(), lod) : Int(0), 0);
+    return color;
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -22,10 +22,22 @@ struct samplerCUBE
     bool seamless = true;    // false: each face is a picture of its own, clamped at its edges
 };
 
+namespace detail {
+
+// Single lanes as parameters travel in registers. See sampler.cpp for the reference.
+void sampleCube(float4& result, const samplerCUBE& s, Float x, Float y, Float z, Float bias);
+
+}  // namespace detail
+
 // The colour in a direction. The level of detail comes from the differences to the neighbouring pixels' directions,
 // projected onto the face that the lane's own direction passes through: it is right across edges, too. All lanes of a
 // quad must get here together, as in tex2D.
-float4 texCUBE(const samplerCUBE& s, const float3& direction);
+inline float4 texCUBE(const samplerCUBE& s, const float3& direction)
+{
+    float4 color;
+    detail::sampleCube(color, s, direction.x, direction.y, direction.z, 0.0f);
+    return color;
+}
 
 // With the direction's change per pixel given, to the right and down.
 float4 texCUBEgrad(const samplerCUBE& s, const float3& direction, const float3& dx, const float3& dy);
@@ -34,6 +46,11 @@ float4 texCUBEgrad(const samplerCUBE& s, const float3& direction, const float3& 
 float4 texCUBElod(const samplerCUBE& s, const float4& directionLod);
 
 // texCUBE in the direction directionBias.xyz with directionBias.w added to the level of detail.
-float4 texCUBEbias(const samplerCUBE& s, const float4& directionBias);
+inline float4 texCUBEbias(const samplerCUBE& s, const float4& directionBias)
+{
+    float4 color;
+    detail::sampleCube(color, s, directionBias.x, directionBias.y, directionBias.z, directionBias.w);
+    return color;
+}
 
 }  // namespace relief::inline RELIEF_WIDTH

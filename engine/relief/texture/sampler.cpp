@@ -119,15 +119,6 @@ inline bool isMagnified(const sampler2D& s, Float square, Bias wholeBias)
            allAtMost(wholeBias, 0.0f, wanted);
 }
 
-// The level that a block most likely wants, quickly: half the exponent of the first lane's `square` is the integer part
-// of its level, before bias and limits.
-inline int likelyLevel(const sampler2D& s, const Texture& texture, Float square)
-{
-    const int exponent = (asInt(square)[0] >> 23) - 127;
-    const int level = (s.filter == Filter::trilinear ? exponent : exponent + 1) >> 1;
-    return std::clamp(level, 0, texture.levelCount() - 1);
-}
-
 // Where the instrument listens, the rest of a sample is a call, so that it takes no registers of the others.
 [[gnu::noinline, gnu::cold]] void sampleWatched(float4& result, const sampler2D& s, const Texture& texture, Float u,
                                                 Float v, Int fixed)
@@ -167,8 +158,8 @@ template <class Bias, class Finest, class MipChain, class Watched>
         countFinest(s);
         return finest();
     }
-    return sampleAtLevel(s, texture, limitedIsotropicLevel(square) + wholeBias, likelyLevel(s, texture, square), finest,
-                         mipChain, watched);
+    return sampleAtLevel(s, texture, limitedIsotropicLevel(square) + wholeBias,
+                         likelyLevel(s, texture.levelCount(), square), finest, mipChain, watched);
 }
 
 // --- the kinds of sample ---

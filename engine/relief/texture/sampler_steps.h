@@ -49,6 +49,16 @@ inline Int fixedLevel(const Sampler& s, int levels, Float lod)
     return Int(native::roundToInt((limited * static_cast<float>(kLodOne)).value));
 }
 
+// The level that a block most likely wants, quickly: half the exponent of the first lane's `square` is the integer part
+// of its level, before bias and limits. `square` is that of the coordinate's longer change, in texels.
+template <class Sampler>
+inline int likelyLevel(const Sampler& s, int levels, Float square)
+{
+    const int exponent = (asInt(square)[0] >> 23) - 127;
+    const int level = (s.filter == Filter::trilinear ? exponent : exponent + 1) >> 1;
+    return std::clamp(level, 0, levels - 1);
+}
+
 // --- counting (see fetch_counters.h) ---
 
 inline std::uint64_t countOf(unsigned lanes)

@@ -198,19 +198,20 @@ void traceCube(const samplerCUBE& s, const TextureCall& call, int lane, SampleTr
     const CubeMap& texture = textureOf(s);
     const float3 direction = finiteDirection(vectorOf(call.coordinate));
     const Meeting at(direction);
-    const CubePlace place = placeOn(s, at);
+    const CubePlace place = placeOn(s, texture, at);
     trace.face = place.face[lane];
     trace.format = texture.format();
     trace.width = trace.height = texture.side();
     trace.levelCount = texture.levelCount();
     trace.filter = s.filter;
-    if (usesMipLevels(s)) {
+    if (usesMipLevels(s, texture)) {
         const bool isGiven = call.function == TextureFunction::texCUBElod;
         const bool hasChange = call.function == TextureFunction::texCUBEgrad;
         const float3 dx = hasChange ? vectorOf(call.dx) : ddx(direction);
         const float3 dy = hasChange ? vectorOf(call.dy) : ddy(direction);
         const Float bias = call.function == TextureFunction::texCUBEbias ? call.extra : Float(0.0f);
-        const Float lod = isGiven ? call.extra + limitBias(s, 0.0f) : levelByChange(s, at, dx, dy, bias);
+        const Float lod = isGiven ? call.extra + limitBias(s, 0.0f)
+                                  : limitedIsotropicLevel(squareOfChange(texture, at, dx, dy)) + limitBias(s, bias);
         trace.choosesLevel = true;
         trace.levelOfDetail = lod[lane];
         trace.fixedLevel = fixedLevel(s, texture.levelCount(), lod)[lane];
