@@ -310,6 +310,10 @@ template <class Tell>
 BlockPixels pixelsOf(const SharedBlock& shared, ShadedBlock* blocks, const Tell& tell)
 {
     BlockPixels whole = pixelsOf(blocks[shared.parts[0]]);
+    if (shared.count == 1) {  // nothing moves
+        tell(blocks[shared.parts[0]].covered.triangle, blocks[shared.parts[0]].quads);
+        return whole;
+    }
     forEachPart(shared, blocks, [&](const ShadedBlock& block, const WayOfQuads& way) {
         const BlockPixels part = pixelsOf(block);
         for (int k = 0; k < 3; ++k) {
@@ -375,6 +379,10 @@ RELIEF_FLATTEN void shadeShared(const void* fragmentProgram, std::span<const Sha
         }
         shading.activeLanes = lanes;
         auto result = program(std::move(input));
+        if (block.count == 1) {  // nothing has moved
+            storeOutputs(result, blocks[block.parts[0]]);
+            continue;
+        }
         forEachPart(block, blocks, [&](ShadedBlock& part, const WayOfQuads& way) {
             storeOutputs(result, part, [&way](Float its) { return way.back(its); });
         });

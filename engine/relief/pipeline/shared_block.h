@@ -17,7 +17,7 @@ namespace relief::inline RELIEF_WIDTH {
 inline constexpr int kQuads = kLanes / 4;  // in a block
 
 // Which blocks of a group share one: `count` places in the group. All live quads of these have room in it, those of the
-// first one first.
+// first one first. A block by itself stays as it is.
 struct SharedBlock
 {
     std::array<std::uint8_t, kQuads> parts;
