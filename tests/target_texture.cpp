@@ -1,6 +1,9 @@
 // A target's attachments as textures.
 #include "relief/pipeline/target_texture.h"
 
+#include <cstring>
+#include <utility>
+
 #include <doctest/doctest.h>
 
 #include "pipeline_fixture.h"
@@ -44,6 +47,124 @@ TEST_CASE("target as a texture: the pixels of every format, with row 0 above")
     }
 }
 
+namespace {
+
+// A copy of the attachment is the same texture, texel by texel and level by level.
+bool isSameTexture(const Texture& a, const Texture& b)
+{
+    if (a.format() != b.format() || a.width() != b.width() || a.levelCount() != b.levelCount()) return false;
+    for (int k = 0; k < a.levelCount(); ++k) {
+        const MipLevel &mine = a.level(k), &its = b.level(k);
+        const std::size_t bytes = mine.rowBytes() * static_cast<std::size_t>(mine.height() + 2);
+        if (std::memcmp(mine.texels(), its.texels(), bytes) != 0 || mine.isOpaque() != its.isOpaque()) return false;
+    }
+    return true;
+}
+
+// The same frame again and again, on a target that keeps its attachments and on one that stores them as textures.
+struct TwoTargets
+{
+    Framebuffer kept, stored;
+    Frame onKept, onStored;
+
+    TwoTargets(Format color, int samples, const FrameOptions& options)
+        : kept(*Framebuffer::create(67, 41, {{color}, {Format::depth32f}}, samples)),
+          stored(*Framebuffer::create(67, 41, {{color, Store::texture}, {Format::depth32f, Store::texture}}, samples)),
+          onKept(kept, options),
+          onStored(stored, options)
+    {
+    }
+    template <class Record>
+    bool sameAfter(const Record& record)
+    {
+        for (Frame* frame : {&onKept, &onStored}) {
+            frame->reset();
+            record(*frame);
+            frame->run();
+        }
+        return isSameTexture(*textureOf(kept, 0), *stored.texture(0)) &&
+               isSameTexture(*textureOf(kept, 1), *stored.texture(1));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("target stored as a texture: what a copy of a kept one holds, frame after frame")
+{
+    const Viewport viewport = exactViewport(67, 41);
+    const auto draw = [&](Frame& frame, const Mesh& mesh) {
+        frame.setViewport(viewport);
+        REQUIRE(frame.draw(mesh, FromPixels(viewport), Value{}, kDepthTested));
+    };
+    Mesh large, small, many;
+    addTriangle(large, {{Point{0, 0}, Point{90 * 256, 0}, Point{0, 90 * 256}}}, {0.25f, 0.5f, 0.75f, 1.0f}, 0.75f);
+    addTriangle(small, {{Point{600, 700}, Point{3000, 800}, Point{900, 5000}}}, {1.0f, 0.5f, 0.0f, 0.5f}, 0.25f);
+    Random random{11};
+    for (int i = 0; i < 300; ++i)
+        addTriangle(many, randomTriangle(random, 67, 41, 200), glm::vec4(0.01f * static_cast<float>(i)), 0.5f);
+    for (const Format color : {Format::rgba8, Format::r32f, Format::rgba32f}) {
+        for (const int samples : {1, 4}) {
+            for (const std::uint32_t maxBinned : {kMaxBinned, 40u}) {
+                CAPTURE(static_cast<int>(color));
+                CAPTURE(samples);
+                CAPTURE(maxBinned);
+                TwoTargets both(color, samples, {2, 16, maxBinned});
+                CHECK(isSameTexture(*textureOf(both.kept, 0), *both.stored.texture(0)));  // before anything is drawn
+                CHECK(isSameTexture(*textureOf(both.kept, 1), *both.stored.texture(1)));
+                CHECK(both.sameAfter([&](Frame& frame) {
+                    frame.clear({0.1f, 0.2f, 0.3f, 1.0f});
+                    draw(frame, large);
+                }));
+                CHECK(both.sameAfter([&](Frame& frame) { draw(frame, small); }));  // most tiles are left as they are
+                CHECK(both.sameAfter([&](Frame&) {}));
+                CHECK(both.sameAfter([&](Frame& frame) {
+                    frame.clearDepth();
+                    draw(frame, small);
+                }));
+                CHECK(both.sameAfter([&](Frame& frame) { frame.clearColor({0.5f, 0.25f, 0.125f, 0.0f}); }));
+                CHECK(both.sameAfter([&](Frame& frame) { draw(frame, many); }));
+                CHECK(both.sameAfter([&](Frame& frame) {
+                    frame.clear(glm::vec4(1.0f));
+                    draw(frame, many);
+                }));
+            }
+        }
+    }
+}
+
+TEST_CASE("target stored as a texture: it stays where it is, and keeps no words")
+{
+    Framebuffer target = *Framebuffer::create(5, 3, {{Format::rgba8, Store::texture}, {Format::depth32f}});
+    const Texture* const texture = target.texture(0);
+    REQUIRE(texture != nullptr);
+    CHECK(target.texture(1) == nullptr);
+    CHECK(target.words(0).empty());
+    CHECK(target.color8().empty());
+    Frame frame(target, {1, 16});
+    frame.clear({1.0f, 0.0f, 0.0f, 1.0f});
+    frame.run();
+    CHECK(texture->texel(4, 2) == glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+
+    Framebuffer copy = target;
+    CHECK(copy.samePixels(target));
+    CHECK(copy.texture(0) != texture);
+    CHECK(isSameTexture(*copy.texture(0), *texture));
+    frame.clearColor({0.0f, 1.0f, 0.0f, 1.0f});
+    frame.run();
+    CHECK_FALSE(copy.samePixels(target));
+    CHECK(texture->texel(4, 2) == glm::vec4(0.0f, 1.0f, 0.0f, 1.0f));
+    CHECK(copy.texture(0)->texel(4, 2) == glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+    const Framebuffer moved = std::move(target);
+    CHECK(moved.texture(0) == texture);
+    CHECK(texture->isConstant() == false);
+
+    Framebuffer one = *Framebuffer::create(1, 1, {{Format::r32f, Store::texture}});
+    Frame onOne(one, {1, 16});
+    onOne.clear(glm::vec4(0.5f));
+    onOne.run();
+    CHECK(one.texture(0)->constant() == glm::vec4(0.5f, 0.0f, 0.0f, 1.0f));
+}
+
 TEST_CASE("target as a texture: read while it is drawn into, it is what the last frame left")
 {
     struct ReadsTarget
@@ -56,6 +177,7 @@ TEST_CASE("target as a texture: read while it is drawn into, it is what the last
         }
     };
     Framebuffer target = makeTarget(16, 16);
+    Framebuffer stored = *Framebuffer::create(16, 16, {{Format::rgba32f, Store::texture}});
     const Mesh mesh = meshOf({{Point{0, 0}, Point{9000, 0}, Point{0, 9000}}});
     float expected = 0.0f;
     for (int pass = 0; pass < 4; ++pass) {
@@ -71,6 +193,13 @@ TEST_CASE("target as a texture: read while it is drawn into, it is what the last
         frame.run();
         expected = expected * 2.0f + 1.0f;
         CHECK(pixelsNotEqualTo(target, expected) == 0);
+
+        program.last.texture = stored.texture(0);
+        Frame onStored(stored, {2, 16});
+        onStored.setViewport(viewport);
+        REQUIRE(onStored.draw(mesh, FromPixels(viewport), program, kPaint));
+        onStored.run();
+        CHECK(isSameTexture(*stored.texture(0), *textureOf(target, 0)));
     }
 }
 
@@ -89,4 +218,18 @@ TEST_CASE("target as a texture: what cannot be one is an error of one line")
     CHECK(message(2).find("stencil") != std::string::npos);
     CHECK(message(3).find("has 3") != std::string::npos);
     CHECK(message(-1).find("counted from 0") != std::string::npos);
+}
+
+TEST_CASE("target stored as a texture: what cannot be one is an error of one line")
+{
+    for (const Format format : {Format::rgba8Srgb, Format::rgba16f, Format::stencil8}) {
+        const Expected<Framebuffer> made =
+            Framebuffer::create(4, 4, {{Format::rgba32f, Store::texture}, {format, Store::texture}});
+        REQUIRE_FALSE(made.has_value());
+        CHECK(made.error().message.find("attachment 1 cannot be stored as a texture") == 0);
+        CHECK(made.error().message.find("textureOf()") != std::string::npos);
+        CHECK(made.error().message.find('\n') == std::string::npos);
+    }
+    const Framebuffer target = *Framebuffer::create(4, 4, {{Format::rgba8, Store::texture}});
+    CHECK(textureOf(target, 0).error().message.find("texture()") != std::string::npos);
 }

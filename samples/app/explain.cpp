@@ -121,7 +121,7 @@ nlohmann::json jsonOf(const SceneLog::Pass& pass)
         const auto [format, store] = target.attachments()[i];
         its["targets"].push_back({{"name", nameOf(target, static_cast<int>(i))},
                                   {"format", trace::wordsOf(format)},
-                                  {"kept", store == Store::keep},
+                                  {"kept", store != Store::discard},
                                   {"read", (pass.read & 1u << i) != 0}});
     }
     for (std::size_t i = 0; i < pass.draws.size(); ++i) {

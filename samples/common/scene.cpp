@@ -228,16 +228,19 @@ Framebuffer& Scene::pass(Framebuffer made, const std::function<void(const Scene&
 
 sampler2D Scene::sampled(const Framebuffer& target, int attachment) const
 {
-    Expected<Texture> texture = textureOf(target, attachment);
-    if (!texture) {
-        log.problem = texture.error().message;
-        return {};
+    const Texture* texture = target.texture(attachment);
+    if (texture == nullptr) {
+        Expected<Texture> copy = textureOf(target, attachment);
+        if (!copy) {
+            log.problem = copy.error().message;
+            return {};
+        }
+        texture = &log.rendered.emplace_back(std::move(*copy));
     }
     for (SceneLog::Pass& pass : log.passes) {
         if (pass.target == &target) pass.read |= 1u << attachment;
     }
-    const Texture& made = log.rendered.emplace_back(std::move(*texture));
-    return {.texture = &made,
+    return {.texture = texture,
             .filter = Filter::bilinear,
             .u = AddressMode::clamp,
             .v = AddressMode::clamp,

@@ -272,8 +272,7 @@ EarlierPass* addPass(SceneData& data, Expected<Framebuffer> target, const Frame&
         return nullptr;
     }
     data.pass = std::make_unique<EarlierPass>(std::move(*target), picture.options().threads);
-    data.runPasses();  // so that there are textures to refer to
-    return data.problem.empty() ? data.pass.get() : nullptr;
+    return data.pass.get();
 }
 
 // --- the scenes ---
@@ -298,16 +297,17 @@ std::unique_ptr<SceneData> shadowed(Frame& frame, int width, int height)
     auto data = sceneData(width, height, {0, 1.6f, -3.4f}, {0, -0.1f, 0});
     addStillLife(*data);
     data->lightFromWorld = orthographic(4.8f, 4.8f, 0.5f, 8.0f) * lookAt(data->lightDir * 4.0f, glm::vec3(0));
-    EarlierPass* const pass =
-        addPass(*data, Framebuffer::create(kShadowMapSide, kShadowMapSide, {{Format::depth32f}}), frame);
+    EarlierPass* const pass = addPass(
+        *data, Framebuffer::create(kShadowMapSide, kShadowMapSide, {{Format::depth32f, Store::texture}}), frame);
     if (pass == nullptr) return data;
     pass->frame.clearDepth();
     for (const Piece& piece : data->pieces) {
         pass->frame.draw(piece.mesh, DepthVertexProgram{{data->lightFromWorld, piece.worldFromObject}}, NoColor{});
     }
-    drawPieces(frame, *data,
-               ShadowFragmentProgram{
-                   bumpsOf(*data), sunOf(*data), broadcast(data->lightFromWorld), {.texture = &*pass->textures[0]}});
+    drawPieces(
+        frame, *data,
+        ShadowFragmentProgram{
+            bumpsOf(*data), sunOf(*data), broadcast(data->lightFromWorld), {.texture = pass->target.texture(0)}});
     return data;
 }
 
@@ -327,14 +327,14 @@ std::unique_ptr<SceneData> deferred(Frame& frame, int width, int height)
     addStillLife(*data);
     data->albedo.emplace(testTexture());
     data->mesh = makeQuad();
-    const Attachment bytes = {Format::rgba8};
+    const Attachment bytes = {Format::rgba8, Store::texture};
     EarlierPass* const pass =
-        addPass(*data, Framebuffer::create(width, height, {bytes, bytes, {Format::depth32f}}), frame);
+        addPass(*data, Framebuffer::create(width, height, {bytes, bytes, {Format::depth32f, Store::texture}}), frame);
     if (pass == nullptr) return data;
     pass->frame.clear(glm::vec4(0.0f));
     drawPieces(pass->frame, *data, WriteGBuffer{bumpsOf(*data), {.texture = &*data->albedo}});
-    const auto texels = [&](std::size_t attachment) {
-        return sampler2D{.texture = &*pass->textures[attachment],
+    const auto texels = [&](int attachment) {
+        return sampler2D{.texture = pass->target.texture(attachment),
                          .filter = Filter::nearest,
                          .u = AddressMode::clamp,
                          .v = AddressMode::clamp,

@@ -275,24 +275,9 @@ std::vector<samples::Object> SceneData::objects() const
     return all;
 }
 
-// The last frame's copy goes first, so that there are never two of an attachment.
-Expected<void> EarlierPass::run()
-{
-    frame.run();
-    for (std::size_t i = 0; i < textures.size(); ++i) {
-        textures[i].reset();
-        Expected<Texture> made = textureOf(target, static_cast<int>(i));
-        if (!made) return tl::unexpected(made.error());
-        textures[i].emplace(std::move(*made));
-    }
-    return {};
-}
-
 void SceneData::runPasses()
 {
-    if (pass == nullptr) return;
-    const Expected<void> run = pass->run();
-    if (!run) problem = run.error().message;
+    if (pass != nullptr) pass->frame.run();
 }
 
 Expected<Framebuffer> targetFor(const BenchScene& scene, int width, int height)

@@ -36,13 +36,8 @@ struct EarlierPass
 {
     Framebuffer target;
     Frame frame;
-    std::vector<std::optional<Texture>> textures;  // of all attachments; they stay where they are
 
-    EarlierPass(Framebuffer created, int threads)
-        : target(std::move(created)), frame(target, {.threads = threads}), textures(target.attachments().size())
-    {
-    }
-    Expected<void> run();
+    EarlierPass(Framebuffer created, int threads) : target(std::move(created)), frame(target, {.threads = threads}) {}
 };
 
 // What a scene's draws are made of, kept alive while frames run. Another rasterizer draws the same from it (twins.h).

@@ -199,7 +199,8 @@ Statistics Frame::Storage::run()
     cutPrimitives();
     const TargetMemory memory(target);
     betweenParts.assign(static_cast<std::size_t>(grid.count()), {});
-    for (Part part = {0, 0, false, clearOf(memory), memory}; !part.isLast; startNextPart(part)) {
+    const Clear all = clearOf(memory);
+    for (Part part = {0, 0, false, all, memory, memory.movesPixels(all)}; !part.isLast; startNextPart(part)) {
         setUpAndBin(part.first);
         while (part.last < usedChunks && chunks[part.last].isReady && chunks[part.last].rest.empty()) ++part.last;
         part.isLast = part.last == usedChunks;
@@ -215,6 +216,7 @@ Statistics Frame::Storage::run()
         }
     }
     betweenParts.clear();
+    if (follower == nullptr) target.show();
 
     Statistics total;
     for (const Worker& worker : perWorker) total += worker.statistics;
@@ -228,10 +230,10 @@ Clear Frame::Storage::clearOf(const TargetMemory& memory) const
 {
     Clear all = clear;
     std::size_t colors = 0;
-    for (std::size_t i = 0; i < memory.words.size(); ++i) {
+    for (std::size_t i = 0; i < memory.attachments.size(); ++i) {
         const Format format = memory.attachments[i].format;
         const std::size_t color = isColor(format) ? colors++ : 0;
-        if (memory.words[i] != nullptr) continue;
+        if (memory.drawn[i].top != nullptr) continue;
         if (isColor(format) && !all.color[color]) all.color[color] = glm::vec4(0.0f);
         if (format == Format::depth32f && !all.depth) all.depth = 1.0f;
         if (format == Format::stencil8 && !all.stencil) all.stencil = std::uint8_t{0};
@@ -353,10 +355,11 @@ void Frame::Storage::drawTile(const Part& part, int tileIndex, Worker& worker)
     std::vector<std::int32_t>& before = betweenParts[tile];
     const bool isNew = before.empty();
     if (!isTouched && !part.isLast) return;
-    if (!isTouched && isNew && !part.clear.isAny()) return;
+    const bool isLeft = !isTouched && isNew && !part.movesPixels;
+    if (isLeft && !part.clear.isAny()) return;
 
     const Rectangle pixels = tilePixels(tileIndex);
-    if (leavesOut::tiles && !isTouched && isNew) return clearRectangle(part.memory, pixels, part.clear);
+    if (leavesOut::tiles && isLeft) return clearRectangle(part.memory, pixels, part.clear);
     if (!worker.tile) worker.tile = std::make_unique<Tile>(grid.tileSize, part.memory);
     if (isNew) {
         worker.tile->begin(pixels.x0, pixels.y0, part.memory, part.clear);

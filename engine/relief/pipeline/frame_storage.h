@@ -69,6 +69,7 @@ struct Frame::Storage
         bool isLast;
         Clear clear;
         TargetMemory memory;
+        bool movesPixels;  // TargetMemory's
     };
 
     Statistics run();

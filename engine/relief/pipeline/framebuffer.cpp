@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <string>
+#include <utility>
+
+#include "relief/bits.h"
 
 namespace relief {
 
@@ -26,6 +30,33 @@ int find(const std::vector<Attachment>& attachments, int n, const Is& is)
         if (is(attachments[i].format) && n-- == 0) return static_cast<int>(i);
     }
     return -1;
+}
+
+// What a texture of such pixels holds; nothing where they are no texels.
+std::optional<TexelFormat> texelFormat(Format format)
+{
+    switch (format) {
+        case Format::rgba8:
+            return TexelFormat::rgba8;
+        case Format::r32f:
+        case Format::depth32f:
+            return TexelFormat::r32Float;
+        case Format::rgba32f:
+            return TexelFormat::rgba32Float;
+        case Format::rgba8Srgb:
+        case Format::rgba16f:
+        case Format::stencil8:
+            break;
+    }
+    return std::nullopt;
+}
+
+// A level's rows: its upper one is the last.
+template <class Word, class Level>
+Framebuffer::Rows<Word> rowsOf(Level& level)
+{
+    return {reinterpret_cast<Word*>(level.template texel<float>(0, level.height() - 1)),
+            -static_cast<std::ptrdiff_t>(level.rowBytes() / sizeof(Word))};
 }
 
 std::string countOf(int number, const char* what)
@@ -63,7 +94,12 @@ Expected<Framebuffer> Framebuffer::create(int width, int height, const std::vect
     target.mSamples = samplePattern(samples);
     target.mAttachments = attachments;
     target.mWords.resize(attachments.size());
+    target.mTextures.resize(attachments.size());
     for (std::size_t i = 0; i < attachments.size(); ++i) {
+        if (attachments[i].store == Store::texture) {
+            const Expected<void> made = target.makeTexture(static_cast<int>(i));
+            if (!made) return tl::unexpected(made.error());
+        }
         const std::size_t count = target.wordCount(static_cast<int>(i));
         if (count == 0) continue;
         target.mWords[i].reset(static_cast<std::uint32_t*>(std::calloc(count, sizeof(std::uint32_t))));
@@ -86,13 +122,20 @@ Framebuffer::Framebuffer(const Framebuffer& other)
       mHeight(other.mHeight),
       mSamples(other.mSamples),
       mAttachments(other.mAttachments),
-      mWords(other.mWords.size())
+      mWords(other.mWords.size()),
+      mTextures(other.mTextures.size())
 {
     for (std::size_t i = 0; i < mWords.size(); ++i) {
+        if (other.mTextures[i] != nullptr) {
+            if (!makeTexture(static_cast<int>(i)))
+                std::abort();  // as for every copy of a container, without exceptions
+            mTextures[i]->hidden() = other.mTextures[i]->level(0);
+            mTextures[i]->show();
+        }
         const std::size_t bytes = wordCount(static_cast<int>(i)) * sizeof(std::uint32_t);
         if (bytes == 0) continue;
         mWords[i].reset(static_cast<std::uint32_t*>(std::malloc(bytes)));
-        if (!mWords[i]) std::abort();  // as for every copy of a container, but without an exception
+        if (!mWords[i]) std::abort();
         std::memcpy(mWords[i].get(), other.mWords[i].get(), bytes);
     }
 }
@@ -105,9 +148,29 @@ Framebuffer& Framebuffer::operator=(const Framebuffer& other)
 std::size_t Framebuffer::wordCount(int attachment) const
 {
     const Attachment& a = mAttachments[static_cast<std::size_t>(attachment)];
-    if (a.store == Store::discard) return 0;
+    if (a.store != Store::keep) return 0;
     return static_cast<std::size_t>(mWidth) * static_cast<std::size_t>(mHeight) *
            static_cast<std::size_t>(wordsPerPixel(a.format));
+}
+
+Expected<void> Framebuffer::makeTexture(int attachment)
+{
+    const auto i = static_cast<std::size_t>(attachment);
+    const std::optional<TexelFormat> format = texelFormat(mAttachments[i].format);
+    if (!format) {
+        return fail(
+            "attachment " + std::to_string(attachment) +
+            " cannot be stored as a texture, its pixels are no texels; choose rgba8, r32f, rgba32f or depth32f, "
+            "or keep it, and copy it with textureOf()");
+    }
+    Expected<Texture> made = Texture::forDrawing(*format, mWidth, mHeight);
+    if (!made) return tl::unexpected(made.error());
+    mTextures[i] = std::make_unique<Texture>(std::move(*made));
+    if (!isDepth(mAttachments[i].format)) return {};
+    const Rows<std::uint32_t> rows = drawnRows(attachment);
+    for (int y = 0; y < mHeight; ++y) std::fill_n(rows.top + y * rows.stride, mWidth, bitCast<std::uint32_t>(1.0f));
+    mTextures[i]->show();
+    return {};
 }
 
 int Framebuffer::colorIndex(int n) const
@@ -130,6 +193,31 @@ std::span<std::uint32_t> Framebuffer::words(int attachment)
 std::span<const std::uint32_t> Framebuffer::words(int attachment) const
 {
     return {mWords[static_cast<std::size_t>(attachment)].get(), wordCount(attachment)};
+}
+
+const Texture* Framebuffer::texture(int attachment) const
+{
+    return mTextures[static_cast<std::size_t>(attachment)].get();
+}
+
+Framebuffer::Rows<std::uint32_t> Framebuffer::drawnRows(int attachment)
+{
+    const auto i = static_cast<std::size_t>(attachment);
+    if (mTextures[i] != nullptr) return rowsOf<std::uint32_t>(mTextures[i]->hidden());
+    return {mWords[i].get(), static_cast<std::ptrdiff_t>(mWidth) * wordsPerPixel(mAttachments[i].format)};
+}
+Framebuffer::Rows<const std::uint32_t> Framebuffer::shownRows(int attachment) const
+{
+    const auto i = static_cast<std::size_t>(attachment);
+    if (mTextures[i] != nullptr) return rowsOf<const std::uint32_t>(mTextures[i]->level(0));
+    return {mWords[i].get(), static_cast<std::ptrdiff_t>(mWidth) * wordsPerPixel(mAttachments[i].format)};
+}
+
+void Framebuffer::show()
+{
+    for (const std::unique_ptr<Texture>& texture : mTextures) {
+        if (texture != nullptr) texture->show();
+    }
 }
 
 // The pixels of the attachment with this format.
@@ -198,12 +286,17 @@ std::span<const std::uint32_t> Framebuffer::stencil() const
 
 bool Framebuffer::samePixels(const Framebuffer& other) const
 {
-    if (mWidth != other.mWidth || mHeight != other.mHeight || mWords.size() != other.mWords.size()) return false;
-    for (std::size_t i = 0; i < mWords.size(); ++i) {
-        const auto index = static_cast<int>(i);
-        const std::span<const std::uint32_t> mine = words(index), theirs = other.words(index);
-        if (mAttachments[i].format != other.mAttachments[i].format || mine.size() != theirs.size()) return false;
-        if (!mine.empty() && std::memcmp(mine.data(), theirs.data(), mine.size_bytes()) != 0) return false;
+    if (mWidth != other.mWidth || mHeight != other.mHeight || mAttachments.size() != other.mAttachments.size())
+        return false;
+    for (std::size_t i = 0; i < mAttachments.size(); ++i) {
+        const auto [format, store] = mAttachments[i];
+        if (format != other.mAttachments[i].format || store != other.mAttachments[i].store) return false;
+        if (store == Store::discard) continue;
+        const auto mine = shownRows(static_cast<int>(i)), theirs = other.shownRows(static_cast<int>(i));
+        const auto bytes = static_cast<std::size_t>(mWidth) * static_cast<std::size_t>(wordsPerPixel(format)) * 4;
+        for (int y = 0; y < mHeight; ++y) {
+            if (std::memcmp(mine.top + y * mine.stride, theirs.top + y * theirs.stride, bytes) != 0) return false;
+        }
     }
     return true;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "relief/error.h"
 #include "relief/pipeline/limits.h"
 #include "relief/pipeline/sample_pattern.h"
+#include "relief/texture/texture.h"
 
 namespace relief {
 
@@ -40,11 +42,13 @@ constexpr int wordsPerPixel(Format format)
 
 // What becomes of an attachment when a frame has run. One that is discarded lives in the tiles only, while they are
 // drawn: it takes no memory, and every frame clears it. Keep it when something reads it afterwards, or when a later
-// frame draws on without clearing.
+// frame draws on without clearing. As a texture it is kept where samplers read it, and nothing has to be copied: of the
+// formats rgba8, r32f, rgba32f and depth32f, whose pixels are texels.
 enum class Store
 {
     keep,
-    discard
+    discard,
+    texture
 };
 
 struct Attachment
@@ -85,11 +89,17 @@ public:
     int depthIndex() const;
     int stencilIndex() const;
 
-    // An attachment's pixels, wordsPerPixel() each, row by row, no padding; empty where it is discarded.
+    // What the last frame left of an attachment with Store::texture, for samplers; null for the others. It lives as
+    // long as the target, and changes when a frame has run: a program that reads it while it draws into the same target
+    // reads the frame before. The target's lower left pixel is at uv (0, 0). Colours are linear; depths and r32f are
+    // red alone. Mip levels are built when they are asked for.
+    const Texture* texture(int attachment) const;
+
+    // An attachment's pixels, wordsPerPixel() each, row by row, no padding; empty where it is not Store::keep.
     std::span<std::uint32_t> words(int attachment);
     std::span<const std::uint32_t> words(int attachment) const;
 
-    // The same as what they are; of several with this format the first. Empty where there is none, or it is discarded.
+    // The same as what they are; of several with this format the first. Empty where there is none, or it is not kept.
     std::span<std::uint32_t> color8();  // both 8-bit formats: R, G, B, A from the lowest byte up
     std::span<std::array<std::uint16_t, 4>> color16f();
     std::span<float> colorR32f();
@@ -103,8 +113,23 @@ public:
     std::span<const float> depth() const;
     std::span<const std::uint32_t> stencil() const;
 
-    // Whether all that is kept is equal, bit by bit.
+    // Whether all that is stored, and how, is equal, bit by bit.
     bool samePixels(const Framebuffer& other) const;
+
+    // --- for frames ---
+
+    // Where an attachment's rows lie: `top` is null where it is discarded.
+    template <class Word>
+    struct Rows
+    {
+        Word* top;
+        std::ptrdiff_t stride;  // words from a row to the one below it
+    };
+    Rows<std::uint32_t> drawnRows(int attachment);              // what the next frame writes
+    Rows<const std::uint32_t> shownRows(int attachment) const;  // what the last one left
+
+    // The textures hold from now on what a frame has written.
+    void show();
 
 private:
     struct Free
@@ -115,13 +140,15 @@ private:
 
     Framebuffer() = default;
     std::size_t wordCount(int attachment) const;
+    Expected<void> makeTexture(int attachment);
     template <class Pixel>
     std::span<Pixel> pixels(Format format) const;
 
     int mWidth = 0, mHeight = 0;
     const SamplePattern* mSamples = &kOneSample;
     std::vector<Attachment> mAttachments;
-    std::vector<Words> mWords;  // of each attachment
+    std::vector<Words> mWords;                        // of each attachment that is kept
+    std::vector<std::unique_ptr<Texture>> mTextures;  // of each that is stored as one
 };
 
 }  // namespace relief

@@ -38,6 +38,8 @@ Expected<Texture> textureOf(const Framebuffer& target, int attachment)
     if (attachment < 0 || attachment >= static_cast<int>(attachments.size()))
         return fail(name + "the target has " + std::to_string(attachments.size()) + ", counted from 0");
     const Attachment& what = attachments[static_cast<std::size_t>(attachment)];
+    if (what.store == Store::texture)
+        return fail(name + "it is one already, and need not be copied: the target's texture()");
     if (what.store == Store::discard)
         return fail(name + "it is discarded when a frame has run; create it with Store::keep");
     const std::span<const std::uint32_t> words = target.words(attachment);

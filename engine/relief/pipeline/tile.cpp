@@ -1,6 +1,8 @@
 #include "relief/pipeline/tile.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <cstring>
 
 #include "relief/bits.h"
@@ -37,30 +39,53 @@ private:
     std::size_t colors = 0;
 };
 
-// Visits the blocks of a tile that lie in a target: visit(block, first pixel in the target, columns, rows).
-template <class Visit>
-void forEachBlock(int width, int height, int blocksWide, std::size_t stride, const Visit& visit)
+// Part of an attachment in memory: a tile's. A texture's texels lie as bytes, R first, whatever a word's first byte is.
+template <class Word>
+struct TilePixels
 {
-    for (int y = 0; y < height; y += kBlockHeight) {
+    Framebuffer::Rows<Word> rows;  // from the tile's upper left pixel on
+    int width, height;             // as far as it lies in the target
+    bool swapsBytes;
+};
+template <class Word>
+TilePixels<Word> tilePixels(const TargetMemory& target, const std::vector<Framebuffer::Rows<Word>>& rows,
+                            std::size_t attachment, int x, int y, int size)
+{
+    const auto [format, store] = target.attachments[attachment];
+    const auto [top, stride] = rows[attachment];
+    return {{top + y * stride + static_cast<std::ptrdiff_t>(x) * wordsPerPixel(format), stride},
+            std::min(size, target.width - x),
+            std::min(size, target.height - y),
+            std::endian::native != std::endian::little && format == Format::rgba8 && store == Store::texture};
+}
+
+std::int32_t swapped(std::int32_t word)
+{
+    const auto w = static_cast<std::uint32_t>(word);
+    return static_cast<std::int32_t>(w >> 24 | (w >> 8 & 0xff00) | (w << 8 & 0xff0000) | w << 24);
+}
+
+// Visits the blocks of a tile that lie in a target: visit(block, its first pixel there, columns, rows).
+template <int words, class Word, class Visit>
+void forEachBlock(const TilePixels<Word>& pixels, int blocksWide, const Visit& visit)
+{
+    for (int y = 0; y < pixels.height; y += kBlockHeight) {
         int block = y / kBlockHeight * blocksWide;
-        for (int x = 0; x < width; x += kBlockWidth) {
-            visit(block++, static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x),
-                  std::min(kBlockWidth, width - x), std::min(kBlockHeight, height - y));
+        for (int x = 0; x < pixels.width; x += kBlockWidth) {
+            visit(block++, pixels.rows.top + y * pixels.rows.stride + x * words,
+                  std::min(kBlockWidth, pixels.width - x), std::min(kBlockHeight, pixels.height - y));
         }
     }
 }
 
-// Copies `columns` x `rows` pixels of `words` words; a whole block's with the sizes as constants.
+// Copies `columns` x `rows` pixels of `words` words; a whole block's with the sizes as constants. Strides are words.
 template <int words, class To, class From>
-void copyRows(To* to, std::size_t toStride, const From* from, std::size_t fromStride, int columns, int rows)
+void copyRows(To* to, std::ptrdiff_t toStride, const From* from, std::ptrdiff_t fromStride, int columns, int rows)
 {
     static_assert(sizeof(To) == 4 && sizeof(From) == 4);
     const auto copy = [&](int width, int height) {
-        for (int row = 0; row < height; ++row) {
-            std::memcpy(to + static_cast<std::size_t>(row) * toStride * words,
-                        from + static_cast<std::size_t>(row) * fromStride * words,
-                        static_cast<std::size_t>(width * words) * 4);
-        }
+        for (int row = 0; row < height; ++row)
+            std::memcpy(to + row * toStride, from + row * fromStride, static_cast<std::size_t>(width * words) * 4);
     };
     if (columns == kBlockWidth && rows == kBlockHeight) {
         copy(kBlockWidth, kBlockHeight);
@@ -76,10 +101,9 @@ constexpr int pixelOf(int lane)
 }
 
 template <int words>
-void storeBlocks(const std::int32_t* blocks, int width, int height, int blocksWide, std::size_t stride,
-                 std::uint32_t* target)
+void storeBlocks(const std::int32_t* blocks, int blocksWide, const TilePixels<std::uint32_t>& target)
 {
-    forEachBlock(width, height, blocksWide, stride, [&](int block, std::size_t pixel, int columns, int rows) {
+    forEachBlock<words>(target, blocksWide, [&](int block, std::uint32_t* to, int columns, int rows) {
         const std::int32_t* from = blocks + block * kLanes * words;
         std::int32_t pixels[kLanes * words];
         if constexpr (words == 1) {
@@ -89,18 +113,19 @@ void storeBlocks(const std::int32_t* blocks, int width, int height, int blocksWi
                 for (int c = 0; c < words; ++c) pixels[pixelOf(i) * words + c] = from[c * kLanes + i];
             }
         }
-        copyRows<words>(target + pixel * words, stride, pixels, kBlockWidth, columns, rows);
+        if (target.swapsBytes) std::transform(pixels, pixels + kLanes * words, pixels, swapped);
+        copyRows<words>(to, target.rows.stride, pixels, kBlockWidth * words, columns, rows);
     });
 }
 
 template <int words>
-void loadBlocks(std::int32_t* blocks, int width, int height, int blocksWide, std::size_t stride,
-                const std::uint32_t* target)
+void loadBlocks(std::int32_t* blocks, int blocksWide, const TilePixels<const std::uint32_t>& target)
 {
-    forEachBlock(width, height, blocksWide, stride, [&](int block, std::size_t pixel, int columns, int rows) {
+    forEachBlock<words>(target, blocksWide, [&](int block, const std::uint32_t* from, int columns, int rows) {
         std::int32_t* to = blocks + block * kLanes * words;
         std::int32_t pixels[kLanes * words] = {};
-        copyRows<words>(pixels, kBlockWidth, target + pixel * words, stride, columns, rows);
+        copyRows<words>(pixels, kBlockWidth * words, from, target.rows.stride, columns, rows);
+        if (target.swapsBytes) std::transform(pixels, pixels + kLanes * words, pixels, swapped);
         if constexpr (words == 1) {
             fromRows(Int::load(pixels)).store(to);
         } else {
@@ -143,7 +168,19 @@ bool Clear::isAny() const
 TargetMemory::TargetMemory(Framebuffer& target)
     : width(target.width()), height(target.height()), samples(&target.samples()), attachments(target.attachments())
 {
-    for (std::size_t i = 0; i < attachments.size(); ++i) words.push_back(target.words(static_cast<int>(i)).data());
+    for (int i = 0; i < static_cast<int>(attachments.size()); ++i) {
+        drawn.push_back(target.drawnRows(i));
+        shown.push_back(target.shownRows(i));
+    }
+}
+
+bool TargetMemory::movesPixels(const Clear& clear) const
+{
+    ClearValues values(clear);
+    return std::any_of(attachments.begin(), attachments.end(), [&](const Attachment& attachment) {
+        std::int32_t value[4];
+        return !values.next(attachment, value) && attachment.store == Store::texture;
+    });
 }
 
 Tile::Tile(int tileSize, const TargetMemory& target)
@@ -191,7 +228,7 @@ void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
         const bool isCleared = values.next(target.attachments[i], value);
         const bool isPartial = x + size > target.width || y + size > target.height;
         if (isCleared || isPartial) fill(planes[i], value);
-        if (!isCleared) load(planes[i], target, target.words[i]);
+        if (!isCleared) load(planes[i], target, i);
     }
     if (!hasDepth()) return;
     if (clear.depth) {
@@ -217,11 +254,8 @@ void Tile::fill(const Plane& plane, const std::int32_t (&value)[4])
     }
 }
 
-void Tile::load(const Plane& plane, const TargetMemory& target, const std::uint32_t* from)
+void Tile::load(const Plane& plane, const TargetMemory& target, std::size_t attachment)
 {
-    const auto stride = static_cast<std::size_t>(target.width);
-    const std::size_t first = static_cast<std::size_t>(originY) * stride + static_cast<std::size_t>(originX);
-    const int width = std::min(size, target.width - originX), height = std::min(size, target.height - originY);
     const int words = wordsPerPixel(plane.format);
     const auto loadPlane = words == 1 ? loadBlocks<1> : words == 2 ? loadBlocks<2> : loadBlocks<4>;
     std::int32_t* to = plane.words.get();
@@ -229,7 +263,7 @@ void Tile::load(const Plane& plane, const TargetMemory& target, const std::uint3
         onePerPixel.assign(static_cast<std::size_t>(blockCount * kLanes * words), 0);
         to = onePerPixel.data();
     }
-    loadPlane(to, width, height, blocksWide, stride, from + first * static_cast<std::size_t>(words));
+    loadPlane(to, blocksWide, tilePixels(target, target.shown, attachment, originX, originY, size));
     for (int k = 0; k < blockCount * pattern->count && pattern->isMultiple(); ++k)
         std::copy_n(to + k / pattern->count * kLanes * words, kLanes * words, plane.words.get() + k * kLanes * words);
 }
@@ -284,15 +318,11 @@ void Tile::refreshWholeBounds()
 
 void Tile::store(const TargetMemory& target)
 {
-    const auto stride = static_cast<std::size_t>(target.width);
-    const std::size_t first = static_cast<std::size_t>(originY) * stride + static_cast<std::size_t>(originX);
-    const int width = std::min(size, target.width - originX), height = std::min(size, target.height - originY);
     for (std::size_t i = 0; i < planes.size(); ++i) {
-        if (target.words[i] == nullptr) continue;
+        if (target.drawn[i].top == nullptr) continue;
         const int words = wordsPerPixel(planes[i].format);
         const auto storePlane = words == 1 ? storeBlocks<1> : words == 2 ? storeBlocks<2> : storeBlocks<4>;
-        storePlane(resolved(planes[i]), width, height, blocksWide, stride,
-                   target.words[i] + first * static_cast<std::size_t>(words));
+        storePlane(resolved(planes[i]), blocksWide, tilePixels(target, target.drawn, i, originX, originY, size));
     }
 }
 
@@ -330,16 +360,16 @@ void clearRectangle(const TargetMemory& target, const Rectangle& pixels, const C
 {
     const Rectangle inside = intersect(pixels, {0, 0, target.width, target.height});
     if (inside.x0 >= inside.x1) return;
-    const auto stride = static_cast<std::size_t>(target.width);
     const auto count = static_cast<std::size_t>(inside.x1 - inside.x0);
     ClearValues values(clear);
-    for (std::size_t i = 0; i < target.words.size(); ++i) {
+    for (std::size_t i = 0; i < target.attachments.size(); ++i) {
         std::int32_t value[4] = {};
-        if (!values.next(target.attachments[i], value) || target.words[i] == nullptr) continue;
+        if (!values.next(target.attachments[i], value) || target.drawn[i].top == nullptr) continue;
         const auto words = static_cast<std::size_t>(wordsPerPixel(target.attachments[i].format));
-        for (int y = inside.y0; y < inside.y1; ++y) {
-            std::uint32_t* row =
-                target.words[i] + (static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(inside.x0)) * words;
+        const TilePixels<std::uint32_t> to = tilePixels(target, target.drawn, i, inside.x0, inside.y0, kMaxTargetSize);
+        if (to.swapsBytes) value[0] = swapped(value[0]);
+        for (int y = 0; y < inside.y1 - inside.y0; ++y) {
+            std::uint32_t* row = to.rows.top + y * to.rows.stride;
             if (words == 1) {
                 std::fill_n(row, count, static_cast<std::uint32_t>(value[0]));
                 continue;

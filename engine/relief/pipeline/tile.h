@@ -30,16 +30,20 @@ struct Clear
     bool isAny() const;
 };
 
-// Where a target's attachments lie: null where there is nothing to load and store. One value a pixel, however many
-// samples it has.
+// Where a target's attachments lie, as Framebuffer has it: where tiles are stored to, and where they are loaded from.
+// One value a pixel, however many samples it has.
 struct TargetMemory
 {
     int width = 0, height = 0;
     const SamplePattern* samples;
     std::vector<Attachment> attachments;
-    std::vector<std::uint32_t*> words;
+    std::vector<Framebuffer::Rows<std::uint32_t>> drawn;
+    std::vector<Framebuffer::Rows<const std::uint32_t>> shown;
 
     explicit TargetMemory(Framebuffer& target);
+
+    // Whether all tiles have to be loaded and stored, drawn to or not: what is not cleared of a texture lies elsewhere.
+    bool movesPixels(const Clear& clear) const;
 };
 
 class Tile
@@ -109,7 +113,7 @@ private:
     };
 
     void fill(const Plane& plane, const std::int32_t (&value)[4]);
-    void load(const Plane& plane, const TargetMemory& target, const std::uint32_t* words);
+    void load(const Plane& plane, const TargetMemory& target, std::size_t attachment);
     const std::int32_t* resolved(const Plane& plane);
     std::size_t wordCount(const Plane& plane) const;
     void setBounds();

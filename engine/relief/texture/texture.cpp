@@ -2,6 +2,7 @@
 #include "relief/texture/texture.h"
 
 #include <string>
+#include <utility>
 
 #include "relief/lanes/environment.h"
 #include "relief/lanes/settled.h"
@@ -12,13 +13,24 @@
 namespace relief {
 namespace {
 
+std::string doesNotFit(int width, int height)
+{
+    return "a texture of " + std::to_string(width) + "x" + std::to_string(height) +
+           " texels does not fit into memory; make it smaller";
+}
+
 // A texture with its levels takes a third more than the finest one.
 std::string problemWith(TexelFormat format, int width, int height, std::size_t numbers)
 {
     std::string problem = problemWithPixels(width, height, channelsPerTexel(format), numbers);
     if (!problem.empty() || fitsInMemory(levelBytes(format, width, height) / 3 * 4)) return problem;
-    return "a texture of " + std::to_string(width) + "x" + std::to_string(height) +
-           " texels does not fit into memory; make it smaller";
+    return doesNotFit(width, height);
+}
+
+// Makes each level by averaging the one before.
+Texture::MakeLevel averages(TexelFormat format)
+{
+    return [format](int, const MipLevel* finer) { return coarserLevel(format, *finer); };
 }
 
 }  // namespace
@@ -68,6 +80,31 @@ Expected<Texture> Texture::fromLevels(TexelFormat format, int width, int height,
     return texture;
 }
 
+Expected<Texture> Texture::forDrawing(TexelFormat format, int width, int height)
+{
+    const DefaultFloatingPoint environment;
+    const auto numbers = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                         static_cast<std::size_t>(channelsPerTexel(format));
+    if (std::string problem = problemWith(format, width, height, numbers); !problem.empty())
+        return fail(std::move(problem));
+    if (!fitsInMemory(2 * levelBytes(format, width, height))) return fail(doesNotFit(width, height));
+    Texture texture(format, MipLevel(format, width, height));
+    texture.chain->hidden.emplace(format, width, height);
+    return texture;
+}
+
+void Texture::show()
+{
+    const DefaultFloatingPoint environment;
+    chain->hidden->fillFrame();
+    std::swap(chain->levels[0], chain->hidden);
+    for (int k = 1; k < levelsBuilt(); ++k) chain->levels[static_cast<std::size_t>(k)].reset();
+    chain->make = averages(texelFormat);
+    chain->table.setTexels(0, *chain->levels[0]);
+    chain->built.store(1, std::memory_order_release);
+    firstTexel = texel(0, 0);
+}
+
 const Texture& Texture::white()
 {
     static const Texture texture =
@@ -113,8 +150,7 @@ Texture::Texture(TexelFormat format, int width, int height, MakeLevel make)
 }
 
 Texture::Texture(TexelFormat format, MipLevel finest)
-    : Texture(format, finest.width(), finest.height(),
-              [format](int, const MipLevel* finer) { return coarserLevel(format, *finer); })
+    : Texture(format, finest.width(), finest.height(), averages(format))
 {
     add(std::move(finest));
     firstTexel = texel(0, 0);

@@ -49,6 +49,17 @@ public:
     using MakeLevel = std::function<MipLevel(int level, const MipLevel* finer)>;
     static Expected<Texture> fromLevels(TexelFormat format, int width, int height, MakeLevel make);
 
+    // One that is drawn into, again and again (framebuffer.h): what is sampled stays as it is until show(). All texels
+    // are 0 at first. An error as above.
+    static Expected<Texture> forDrawing(TexelFormat format, int width, int height);
+
+    // The level to draw into next: all texels, and not the frame.
+    MipLevel& hidden() { return *chain->hidden; }
+
+    // What was drawn is level 0 from now on, what was level 0 is hidden, and coarser levels are built anew when they
+    // are asked for. Not while anybody samples.
+    void show();
+
     // One texel of a constant: what a material samples that has no texture of its own.
     static const Texture& white();       // (1, 1, 1, 1)
     static const Texture& grey();        // sRGB code 128 in linear light, (0.2158, 0.2158, 0.2158, 1)
@@ -91,6 +102,7 @@ private:
         std::atomic<int> built{0};
         std::array<std::optional<MipLevel>, kMaxMipLevels> levels;  // written under the mutex, once each
         LevelTable table;                                           // its texels, too
+        std::optional<MipLevel> hidden;                             // where it is drawn into
         MakeLevel make;
         std::mutex building;
     };
