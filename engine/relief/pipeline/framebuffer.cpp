@@ -197,7 +197,8 @@ std::span<const std::uint32_t> Framebuffer::words(int attachment) const
 
 const Texture* Framebuffer::texture(int attachment) const
 {
-    return mTextures[static_cast<std::size_t>(attachment)].get();
+    const auto i = static_cast<std::size_t>(attachment);
+    return i < mTextures.size() ? mTextures[i].get() : nullptr;
 }
 
 Framebuffer::Rows<std::uint32_t> Framebuffer::drawnRows(int attachment)
