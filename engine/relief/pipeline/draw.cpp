@@ -20,6 +20,7 @@ namespace relief::inline RELIEF_WIDTH {
 namespace {
 
 constexpr std::size_t kBlocksPerGroup = 16;
+constexpr std::size_t kFirstGroup = 4;  // of a draw in a tile, when it is not known yet whether its blocks will share
 
 // Where a run has so many blocks a triangle it pays to look at the bounds of the whole tile, which are often in front
 // of all that is drawn over it later.
@@ -425,7 +426,6 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     constexpr bool severalSamples = State::severalSamples;
     const unsigned targets = draw.state.colorWrite ? state.outputs.targets & tile.colors() : 0;
     const bool runsProgram = !leavesOut::colors || targets != 0 || state.decides;
-    const std::size_t groupSize = state.decides ? 1 : kBlocksPerGroup;
     const bool mayShare = leavesOut::emptyQuads && draw.programs->shadeShared != nullptr && !state.decides;
     const bool isLarge = static_cast<int>(blocks.size()) >= kBlocksOfLargeTriangle * countBits(batch.visible);
     constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -433,11 +433,13 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     std::array<ShadedBlock, kBlocksPerGroup> group;
     std::array<MoreOutputs, State::hasOneTarget ? 0 : kBlocksPerGroup> more;
     if constexpr (!State::hasOneTarget) {
-        for (std::size_t i = 0; i < groupSize; ++i) group[i].more = &more[i];
+        for (std::size_t i = 0; i < kBlocksPerGroup; ++i) group[i].more = &more[i];
     }
     std::array<TriangleCorners, kLanes> corners;
     TriangleInTile<severalSamples> triangle;
     for (auto next = blocks.begin(); next != blocks.end();) {
+        const bool isNew = mayShare && tile.seen.draw != &draw;
+        const std::size_t groupSize = state.decides ? 1 : isNew ? kFirstGroup : kBlocksPerGroup;
         ShadedBlock* free = group.data();
         for (; next != blocks.end() && free != group.data() + groupSize; ++next) {
             if (next->triangle != triangle.lane) {
@@ -450,7 +452,6 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
         const std::span<ShadedBlock> shaded(group.data(), free);
         if (!runsProgram || shaded.empty()) continue;
         // A program that samples no texture is done before its blocks would be put together.
-        const bool isNew = mayShare && tile.seen.draw != &draw;
         const std::uint64_t sampled = isNew ? shading.fetches.samples() : 0;
         if (mayShare && !isNew && tile.seen.samples) {
             counts.blocks += shadeTogether(draw, shaded, batch, corners.data());

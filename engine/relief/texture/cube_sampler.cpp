@@ -15,8 +15,8 @@ template <class Fetch>
     result = Fetch::toUnit(sampleMipLevels<Fetch>(CubePlace{s, texture, u, v, face}, lod, guess));
 }
 
-inline void sampleAtLevel(float4& result, const samplerCUBE& s, const CubeMap& texture, const Meeting& at, Int fixed,
-                          int guess)
+[[gnu::always_inline]] inline void sampleAtLevel(float4& result, const samplerCUBE& s, const CubeMap& texture,
+                                                 const Meeting& at, Int fixed, int guess)
 {
     countSample(s);
     countOneLevel(s, (fixed == 0).bits(), lanesOnOneLevel(fixed) & kAllLanes);
@@ -32,8 +32,8 @@ inline void sampleFinest(float4& result, const samplerCUBE& s, const CubeMap& te
     sampleAtLevel(result, s, texture, at, 0, 0);
 }
 
-inline void sampleByChange(float4& result, const samplerCUBE& s, const CubeMap& texture, const Meeting& at,
-                           const float3& dx, const float3& dy, Float bias)
+[[gnu::always_inline]] inline void sampleByChange(float4& result, const samplerCUBE& s, const CubeMap& texture,
+                                                  const Meeting& at, const float3& dx, const float3& dy, Float bias)
 {
     const Float square = squareOfChange(texture, at, dx, dy);
     const Float lod = limitedIsotropicLevel(square) + limitBias(s, bias);
