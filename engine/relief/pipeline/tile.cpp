@@ -39,13 +39,14 @@ private:
     std::size_t colors = 0;
 };
 
-// Part of an attachment in memory: a tile's. A texture's texels lie as bytes, R first, whatever a word's first byte is.
+// Part of an attachment in memory: a tile's. Goes by value, or its numbers would be read again after every pixel
+// written.
 template <class Word>
 struct TilePixels
 {
     Framebuffer::Rows<Word> rows;  // from the tile's upper left pixel on
     int width, height;             // as far as it lies in the target
-    bool swapsBytes;
+    bool isTexture8;               // of rgba8
 };
 template <class Word>
 TilePixels<Word> tilePixels(const TargetMemory& target, const std::vector<Framebuffer::Rows<Word>>& rows,
@@ -56,18 +57,24 @@ TilePixels<Word> tilePixels(const TargetMemory& target, const std::vector<Frameb
     return {{top + y * stride + static_cast<std::ptrdiff_t>(x) * wordsPerPixel(format), stride},
             std::min(size, target.width - x),
             std::min(size, target.height - y),
-            std::endian::native != std::endian::little && format == Format::rgba8 && store == Store::texture};
+            format == Format::rgba8 && store == Store::texture};
 }
 
-std::int32_t swapped(std::int32_t word)
+// Texels are bytes, R first: on machines that put a word's highest byte first they are turned round.
+template <class Word>
+void orderBytes(TilePixels<Word> target, std::int32_t* pixels, int count)
 {
-    const auto w = static_cast<std::uint32_t>(word);
-    return static_cast<std::int32_t>(w >> 24 | (w >> 8 & 0xff00) | (w << 8 & 0xff0000) | w << 24);
+    if constexpr (std::endian::native != std::endian::little) {
+        for (int i = 0; i < count && target.isTexture8; ++i) {
+            const auto w = static_cast<std::uint32_t>(pixels[i]);
+            pixels[i] = static_cast<std::int32_t>(w >> 24 | (w >> 8 & 0xff00) | (w << 8 & 0xff0000) | w << 24);
+        }
+    }
 }
 
 // Visits the blocks of a tile that lie in a target: visit(block, its first pixel there, columns, rows).
 template <int words, class Word, class Visit>
-void forEachBlock(const TilePixels<Word>& pixels, int blocksWide, const Visit& visit)
+void forEachBlock(TilePixels<Word> pixels, int blocksWide, const Visit& visit)
 {
     for (int y = 0; y < pixels.height; y += kBlockHeight) {
         int block = y / kBlockHeight * blocksWide;
@@ -101,7 +108,7 @@ constexpr int pixelOf(int lane)
 }
 
 template <int words>
-void storeBlocks(const std::int32_t* blocks, int blocksWide, const TilePixels<std::uint32_t>& target)
+void storeBlocks(const std::int32_t* blocks, int blocksWide, TilePixels<std::uint32_t> target)
 {
     forEachBlock<words>(target, blocksWide, [&](int block, std::uint32_t* to, int columns, int rows) {
         const std::int32_t* from = blocks + block * kLanes * words;
@@ -113,19 +120,19 @@ void storeBlocks(const std::int32_t* blocks, int blocksWide, const TilePixels<st
                 for (int c = 0; c < words; ++c) pixels[pixelOf(i) * words + c] = from[c * kLanes + i];
             }
         }
-        if (target.swapsBytes) std::transform(pixels, pixels + kLanes * words, pixels, swapped);
+        orderBytes(target, pixels, kLanes * words);
         copyRows<words>(to, target.rows.stride, pixels, kBlockWidth * words, columns, rows);
     });
 }
 
 template <int words>
-void loadBlocks(std::int32_t* blocks, int blocksWide, const TilePixels<const std::uint32_t>& target)
+void loadBlocks(std::int32_t* blocks, int blocksWide, TilePixels<const std::uint32_t> target)
 {
     forEachBlock<words>(target, blocksWide, [&](int block, const std::uint32_t* from, int columns, int rows) {
         std::int32_t* to = blocks + block * kLanes * words;
         std::int32_t pixels[kLanes * words] = {};
         copyRows<words>(pixels, kBlockWidth * words, from, target.rows.stride, columns, rows);
-        if (target.swapsBytes) std::transform(pixels, pixels + kLanes * words, pixels, swapped);
+        orderBytes(target, pixels, kLanes * words);
         if constexpr (words == 1) {
             fromRows(Int::load(pixels)).store(to);
         } else {
@@ -367,7 +374,7 @@ void clearRectangle(const TargetMemory& target, const Rectangle& pixels, const C
         if (!values.next(target.attachments[i], value) || target.drawn[i].top == nullptr) continue;
         const auto words = static_cast<std::size_t>(wordsPerPixel(target.attachments[i].format));
         const TilePixels<std::uint32_t> to = tilePixels(target, target.drawn, i, inside.x0, inside.y0, kMaxTargetSize);
-        if (to.swapsBytes) value[0] = swapped(value[0]);
+        orderBytes(to, value, 1);
         for (int y = 0; y < inside.y1 - inside.y0; ++y) {
             std::uint32_t* row = to.rows.top + y * to.rows.stride;
             if (words == 1) {
