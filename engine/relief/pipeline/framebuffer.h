@@ -89,10 +89,10 @@ public:
     int depthIndex() const;
     int stencilIndex() const;
 
-    // What the last frame left of an attachment with Store::texture, for samplers; null where there is none. It lives as
-    // long as the target, and changes when a frame has run: a program that reads it while it draws into the same target
-    // reads the frame before. The target's lower left pixel is at uv (0, 0). Colours are linear; depths and r32f are
-    // red alone. Mip levels are built when they are asked for.
+    // What the last frame left of an attachment with Store::texture, for samplers; null where there is none. It lives
+    // as long as the target, and changes when a frame has run: a program that reads it while it draws into the same
+    // target reads the frame before. The target's lower left pixel is at uv (0, 0). Colours are linear; depths and r32f
+    // are red alone. Mip levels are built when they are asked for.
     const Texture* texture(int attachment) const;
 
     // An attachment's pixels, wordsPerPixel() each, row by row, no padding; empty where it is not Store::keep.
