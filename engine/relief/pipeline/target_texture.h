@@ -1,4 +1,5 @@
-// What a frame has drawn, as a texture for the next one: shadow maps, mirrors, deferred shading.
+// What a frame has drawn, copied to a texture. An attachment that is stored as one (Store::texture, framebuffer.h) needs
+// no copy; one that is kept, or whose pixels are no texels, does.
 #pragma once
 
 #include "relief/error.h"
