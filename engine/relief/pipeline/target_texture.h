@@ -1,5 +1,5 @@
-// What a frame has drawn, copied to a texture. An attachment that is stored as one (Store::texture, framebuffer.h) needs
-// no copy; one that is kept, or whose pixels are no texels, does.
+// What a frame has drawn, copied to a texture. An attachment that is stored as one (Store::texture, framebuffer.h)
+// needs no copy; one that is kept, or whose pixels are no texels, does.
 #pragma once
 
 #include "relief/error.h"
