@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "pipeline_fixture.h"
+#include "relief/texture/sampler.h"
 
 using namespace fixture;
 
