@@ -1,12 +1,25 @@
 #include "relief/check/hash.h"
 
+#include <bit>
+
 namespace relief {
 
 std::uint64_t hashOf(const Framebuffer& target)
 {
     std::uint64_t hash = 14695981039346656037ull;
     for (int i = 0; i < static_cast<int>(target.attachments().size()); ++i) {
-        for (const std::uint32_t word : target.words(i)) hash = (hash ^ word) * 1099511628211ull;
+        const auto [format, store] = target.attachments()[static_cast<std::size_t>(i)];
+        if (store == Store::discard) continue;
+        // Texels of rgba8 are bytes, R first.
+        const bool turnsRound =
+            std::endian::native != std::endian::little && store == Store::texture && format == Format::rgba8;
+        const auto rows = target.shownRows(i);
+        for (int y = 0; y < target.height(); ++y) {
+            for (int x = 0; x < target.width() * wordsPerPixel(format); ++x) {
+                const std::uint32_t word = rows.top[y * rows.stride + x];
+                hash = (hash ^ (turnsRound ? __builtin_bswap32(word) : word)) * 1099511628211ull;
+            }
+        }
     }
     return hash;
 }
