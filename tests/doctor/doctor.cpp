@@ -1,6 +1,7 @@
 // The doctor: every fault named on every map, nothing on sound ones; what it cures is sound again.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <doctest/doctest.h>
 
@@ -27,15 +28,18 @@ const std::vector<SoundMap>& maps()
     return all;
 }
 
+// All maps and pairs of faults take half a minute: the test long.doctor.
+bool takesAll()
+{
+    return std::getenv("RELIEF_FULL_TRIALS") != nullptr;
+}
+
 // On which faults are made: marble, bricks and domes where time is short.
 std::vector<const SoundMap*> trials()
 {
+    if (!takesAll()) return {&maps()[0], &maps()[1], &maps()[6]};
     std::vector<const SoundMap*> chosen;
-#ifdef RELIEF_SHORT_TESTS
-    for (const std::size_t i : {0u, 1u, 6u}) chosen.push_back(&maps()[i]);
-#else
     for (const SoundMap& map : maps()) chosen.push_back(&map);
-#endif
     return chosen;
 }
 
@@ -78,9 +82,7 @@ TEST_CASE("doctor: 95 of 100 single faults are named, and nine of ten in pairs")
         CHECK(others <= 0.05 * asked);
     };
     examine(singleFaults(), 0.95);
-#ifndef RELIEF_SHORT_TESTS
-    examine(doubleFaults(), 0.9);
-#endif
+    if (takesAll()) examine(doubleFaults(), 0.9);
 }
 
 TEST_CASE("doctor: what it cures is the map as it was, but for rounding")
