@@ -59,10 +59,10 @@ TEST_CASE("command line: bench --peer draws the test scenes beside Mesa, or says
     checkRefused(folder.path, "bench --alone mesa", {"--peer"});
     checkRefused(folder.path, "bench --peer mesa --alone nobody", {"nobody"});
 
-    const std::vector<std::string> scenes = {"clear",      "flat_quad",       "trilinear_plane", "anisotropic_plane",
-                                       "layers_32",  "small_triangles", "stage_1.25",      "stage_2.06",
-                                       "stage_4.07", "multisampled",    "shadowed",        "reflecting",
-                                       "deferred",   "million_triangles", "first_frame"};
+    const std::vector<std::string> scenes = {"clear",      "flat_quad",         "trilinear_plane", "anisotropic_plane",
+                                             "layers_32",  "small_triangles",   "stage_1.25",      "stage_2.06",
+                                             "stage_4.07", "multisampled",      "shadowed",        "reflecting",
+                                             "deferred",   "million_triangles", "first_frame"};
     std::string arguments = "bench --peer mesa --size 64x36 --pairs 1";
     for (const std::string& scene : scenes) arguments += " --scene " + scene;
     const Outcome table = run(folder.path, arguments);
