@@ -31,13 +31,10 @@ inline float4 unpackRgba8(Int packed)
     return {channel(0), channel(8), channel(16), channel(24)};
 }
 
-// Numbers in 0 ... 1. What is grey takes one channel's time.
+// Numbers in 0 ... 1.
 inline float4 encodeSrgb(const float4& c)
 {
-    const Float x = linearToSrgb(c.x), w = saturate(c.w);
-    const Int bits = asInt(c.x);
-    if (bits[0] == asInt(c.y)[0] && all((bits == asInt(c.y)) & (bits == asInt(c.z)))) return {x, x, x, w};
-    return {x, linearToSrgb(c.y), linearToSrgb(c.z), w};
+    return {linearToSrgb(c.x), linearToSrgb(c.y), linearToSrgb(c.z), saturate(c.w)};
 }
 
 // Decodes by the exact table of 256 values; only blending onto an sRGB target needs it.
