@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <sstream>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include "live_command.h"
 
@@ -34,32 +32,23 @@ inline std::string programOf(const std::string& arguments)
         std::replace(report.begin(), report.end(), '-', '_');
         name = "relief_report_" + report;
     }
-    const std::string programs = RELIEF_PROGRAMS "/";
-    return programs + (std::filesystem::exists(programs + name) ? name : "relief_report");
+    return std::filesystem::exists(RELIEF_PROGRAMS "/" + name) ? name : "relief_report";
 }
 
-// What it says then.
-inline const char* const kElsewhere = "this program does not do it";
-
-// Runs the program in `folder`.
-inline Outcome run(const std::filesystem::path& folder, const std::string& arguments,
-                   const std::string& environment = "")
+// Runs the program in the folder, and leaves nothing there but what the program wrote.
+inline Outcome run(const TemporaryFolder& folder, const std::string& arguments, const std::string& environment = "")
 {
-    const std::string command = "cd '" + folder.string() + "' && " + environment + " '" + programOf(arguments) + "' " +
-                                arguments + " >out.txt 2>err.txt";
-    const int status = std::system(command.c_str());
-    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out.txt"),
-                    contents(folder / "err.txt")};
+    Outcome outcome = runCommand(folder, arguments, programOf(arguments), "/dev/null", environment);
     std::filesystem::remove(folder / "out.txt");
     std::filesystem::remove(folder / "err.txt");
     return outcome;
 }
 
 // One line, exit code 2, the words in it, and no new file in the folder.
-inline void checkRefused(const std::filesystem::path& folder, const std::string& arguments,
+inline void checkRefused(const TemporaryFolder& folder, const std::string& arguments,
                          const std::vector<std::string>& words, const std::string& environment = "")
 {
-    const auto count = [&] { return std::distance(std::filesystem::recursive_directory_iterator(folder), {}); };
+    const auto count = [&] { return std::distance(std::filesystem::recursive_directory_iterator(folder.path), {}); };
     const auto before = count();
     const Outcome outcome = run(folder, arguments, environment);
     CAPTURE(arguments);

@@ -1,4 +1,4 @@
-// Runs the program relief_view in a folder of its own: what it prints, and its exit code.
+// Runs a program in a folder: what it prints, and its exit code.
 #pragma once
 
 #include <cstdlib>
@@ -25,11 +25,13 @@ inline std::string contents(const std::filesystem::path& path)
     return text.str();
 }
 
+// `environment`: variables, as in NAME=VALUE. What it prints stays in out.txt and err.txt.
 inline Outcome runCommand(const TemporaryFolder& folder, const std::string& arguments,
-                          const std::string& program = "relief_view", const std::string& input = "/dev/null")
+                          const std::string& program = "relief_view", const std::string& input = "/dev/null",
+                          const std::string& environment = "")
 {
-    const std::string command = "cd '" + folder.path.string() + "' && '" RELIEF_PROGRAMS "/" + program + "' " +
-                                arguments + " >out.txt 2>err.txt <'" + input + "'";
+    const std::string command = "cd '" + folder.path.string() + "' && " + environment + " '" RELIEF_PROGRAMS "/" +
+                                program + "' " + arguments + " >out.txt 2>err.txt <'" + input + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out.txt"), contents(folder / "err.txt")};
 }

@@ -17,10 +17,26 @@
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Whether this machine or this build lacks what a command needs, and it says so.
+bool isMissing(const Outcome& outcome)
+{
+    for (const char* words : {"install gnuplot-nox", "libgl1-mesa-dri", "this program does not do it"}) {
+        if (outcome.err.find(words) == std::string::npos) continue;
+        CHECK(outcome.code == 2);
+        MESSAGE("skipped: " << outcome.err);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace
+
 TEST_CASE("command line: the gallery has every picture and a page that names them")
 {
     const TemporaryFolder folder;
-    REQUIRE(run(folder.path, "gallery --out g").code == 0);
+    REQUIRE(run(folder, "gallery --out g").code == 0);
     const std::string page = contents(folder.path / "g/index.html");
     for (const auto& stage : relief::samples::allStages()) {
         CHECK(fs::exists(folder.path / "g" / stage.folder / (stage.stem + ".png")));
@@ -39,7 +55,7 @@ TEST_CASE("command line: the gallery has every picture and a page that names the
     };
     collect(folder.path / "g", whole);
     for (const std::string part : {"1", "2", "3"}) {
-        REQUIRE(run(folder.path, "gallery --out part" + part + " --shard " + part + "/3").code == 0);
+        REQUIRE(run(folder, "gallery --out part" + part + " --shard " + part + "/3").code == 0);
         collect(folder.path / ("part" + part), together);
     }
     CHECK(together == whole);
@@ -48,16 +64,16 @@ TEST_CASE("command line: the gallery has every picture and a page that names the
 TEST_CASE("command line: bench --peer draws the test scenes beside Mesa, or says what is missing")
 {
     const TemporaryFolder folder;
-    checkRefused(folder.path, "bench --peer nobody", {"--peer", "nobody", "mesa"});
-    checkRefused(folder.path, "bench --peer mesa --stage 1.06", {"--peer", "--stage"});
-    checkRefused(folder.path, "bench --peer mesa --rounds 2", {"--rounds"});
-    checkRefused(folder.path, "bench --peer mesa --pairs 0", {"--pairs"});
-    checkRefused(folder.path, "bench --peer mesa --benchmark_filter=x", {"benchmark_filter"});
-    checkRefused(folder.path, "bench --pairs 3", {"--pairs", "--peer"});
-    checkRefused(folder.path, "bench --benchmark_filtre=x", {"benchmark_filtre"});
-    checkRefused(folder.path, "bench --scene clear", {"--scene", "--peer"});
-    checkRefused(folder.path, "bench --alone mesa", {"--peer"});
-    checkRefused(folder.path, "bench --peer mesa --alone nobody", {"nobody"});
+    checkRefused(folder, "bench --peer nobody", {"--peer", "nobody", "mesa"});
+    checkRefused(folder, "bench --peer mesa --stage 1.06", {"--peer", "--stage"});
+    checkRefused(folder, "bench --peer mesa --rounds 2", {"--rounds"});
+    checkRefused(folder, "bench --peer mesa --pairs 0", {"--pairs"});
+    checkRefused(folder, "bench --peer mesa --benchmark_filter=x", {"benchmark_filter"});
+    checkRefused(folder, "bench --pairs 3", {"--pairs", "--peer"});
+    checkRefused(folder, "bench --benchmark_filtre=x", {"benchmark_filtre"});
+    checkRefused(folder, "bench --scene clear", {"--scene", "--peer"});
+    checkRefused(folder, "bench --alone mesa", {"--peer"});
+    checkRefused(folder, "bench --peer mesa --alone nobody", {"nobody"});
 
     const std::vector<std::string> scenes = {"clear",      "flat_quad",         "trilinear_plane", "anisotropic_plane",
                                              "layers_32",  "small_triangles",   "stage_1.25",      "stage_2.06",
@@ -65,12 +81,8 @@ TEST_CASE("command line: bench --peer draws the test scenes beside Mesa, or says
                                              "deferred",   "million_triangles", "first_frame"};
     std::string arguments = "bench --peer mesa --size 64x36 --pairs 1";
     for (const std::string& scene : scenes) arguments += " --scene " + scene;
-    const Outcome table = run(folder.path, arguments);
-    if (table.code == 2 &&
-        (table.err.find("libgl1-mesa-dri") != std::string::npos || table.err.find(kElsewhere) != std::string::npos)) {
-        MESSAGE("not compared with Mesa: " << table.err);
-        return;
-    }
+    const Outcome table = run(folder, arguments);
+    if (isMissing(table)) return;
     CAPTURE(table.err);
     CHECK(table.code == 0);
     std::stringstream lines(table.out);
@@ -96,31 +108,27 @@ TEST_CASE("command line: bench --peer draws the test scenes beside Mesa, or says
     CHECK((std::getline(lines, line) && line.find("llvmpipe") != std::string::npos));
     CHECK_FALSE(std::getline(lines, line));
 
-    const Outcome one = run(folder.path, "bench --peer mesa --size 64x36 --pairs 1 --scene clear --threads 1");
+    const Outcome one = run(folder, "bench --peer mesa --size 64x36 --pairs 1 --scene clear --threads 1");
     CHECK(one.code == 0);
     CHECK(one.out.find("threads: 1,") != std::string::npos);
     CHECK(one.out.find("flat_quad") == std::string::npos);
     for (const std::string who : {"relief", "mesa"}) {
         const std::string alone = "bench --peer mesa --size 64x36 --alone " + who;
-        CHECK(run(folder.path, alone + " --scene stage_1.25").out == "drawn\n");
-        checkRefused(folder.path, alone + " --scene stage_1.25", {"/nowhere"}, "RELIEF_ASSETS=/nowhere");
+        CHECK(run(folder, alone + " --scene stage_1.25").out == "drawn\n");
+        checkRefused(folder, alone + " --scene stage_1.25", {"/nowhere"}, "RELIEF_ASSETS=/nowhere");
     }
-    checkRefused(folder.path, "bench --peer mesa --scene stage_4.07", {"/nowhere"}, "RELIEF_ASSETS=/nowhere");
-    checkRefused(folder.path, "bench --peer mesa --scene nowhere", {"nowhere", "flat_quad"});
-    checkRefused(folder.path, "bench --peer mesa --threads 17", {"--threads", "16"});
-    checkRefused(folder.path, "bench --peer mesa --size big", {"big"});
-    checkRefused(folder.path, "bench --peer mesa --size 64x36", {"libgl1-mesa-dri"}, "LIBGL_DRIVERS_PATH=/nowhere");
+    checkRefused(folder, "bench --peer mesa --scene stage_4.07", {"/nowhere"}, "RELIEF_ASSETS=/nowhere");
+    checkRefused(folder, "bench --peer mesa --scene nowhere", {"nowhere", "flat_quad"});
+    checkRefused(folder, "bench --peer mesa --threads 17", {"--threads", "16"});
+    checkRefused(folder, "bench --peer mesa --size big", {"big"});
+    checkRefused(folder, "bench --peer mesa --size 64x36", {"libgl1-mesa-dri"}, "LIBGL_DRIVERS_PATH=/nowhere");
 }
 
 TEST_CASE("command line: report triplanar writes a text, a table and a plot")
 {
     const TemporaryFolder folder;
-    const Outcome outcome = run(folder.path, "report triplanar --size 64x36 --rounds 1 --output r");
-    if (outcome.err.find("install gnuplot-nox") != std::string::npos) {
-        CHECK(outcome.code == 2);
-        MESSAGE("gnuplot is not installed: skipped");
-        return;
-    }
+    const Outcome outcome = run(folder, "report triplanar --size 64x36 --rounds 1 --output r");
+    if (isMissing(outcome)) return;
     CAPTURE(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(outcome.out == "r/triplanar.md, .csv and .svg\n");
@@ -142,23 +150,18 @@ TEST_CASE("command line: report triplanar writes a text, a table and a plot")
     // Seven methods with a line for each of four tilts and three slopes, and mesh tangents, which have no error.
     CHECK(rows == std::map<std::string, int>{{"table", 1}, {"methods", 85}, {"weights", 9}, {"weights alone", 9}});
 
-    checkRefused(folder.path, "report triplanar --size 0x0", {"0x0"});
-    checkRefused(folder.path, "report triplanar --size 64x36 --counted-program nothing", {"nothing"});
-    checkRefused(folder.path, "report triplanar --size 64x36 --rounds 1 --output /proc/r", {"/proc/r"});
+    checkRefused(folder, "report triplanar --size 0x0", {"0x0"});
+    checkRefused(folder, "report triplanar --size 64x36 --counted-program nothing", {"nothing"});
+    checkRefused(folder, "report triplanar --size 64x36 --rounds 1 --output /proc/r", {"/proc/r"});
 }
 
 TEST_CASE("command line: report error writes a page, a table and a plot for each experiment")
 {
     const TemporaryFolder folder;
-    checkRefused(folder.path, "report triplanar --only E-01", {"--only"});
-    checkRefused(folder.path, "report error --part 0.5", {"--part"});
-    const Outcome outcome = run(folder.path, "report error --only E-01 --rounds 2 --output r");
-    for (const std::string missing : {"install gnuplot-nox", kElsewhere}) {
-        if (outcome.err.find(missing) == std::string::npos) continue;
-        CHECK(outcome.code == 2);
-        MESSAGE("skipped: " << outcome.err);
-        return;
-    }
+    checkRefused(folder, "report triplanar --only E-01", {"--only"});
+    checkRefused(folder, "report error --part 0.5", {"--part"});
+    const Outcome outcome = run(folder, "report error --only E-01 --rounds 2 --output r");
+    if (isMissing(outcome)) return;
     CAPTURE(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(outcome.out == "r/error/: 1 experiments\n");
@@ -176,16 +179,16 @@ TEST_CASE("command line: report error writes a page, a table and a plot for each
         CHECK(line.starts_with(rows == 0 ? "exp,variant,param,n,err_max," : "E-01,"));
     }
     CHECK(rows == 7);
-    checkRefused(folder.path, "report error --only E-99", {"E-99"});
-    checkRefused(folder.path, "report error --only E-01 --rounds 1 --counted-program nothing", {"nothing"});
+    checkRefused(folder, "report error --only E-99", {"E-99"});
+    checkRefused(folder, "report error --only E-01 --rounds 1 --counted-program nothing", {"nothing"});
 }
 
 TEST_CASE("command line: report leave-out counts for every stage what it did not need")
 {
     const TemporaryFolder folder;
-    checkRefused(folder.path, "report leave-out --size 96x54 --counted-program relief", {"--switchable-program"});
-    checkRefused(folder.path, "report leave-out --size 0x1", {"0x1"});
-    const Outcome outcome = run(folder.path, "report leave-out --size 96x54 --output r");
+    checkRefused(folder, "report leave-out --size 96x54 --counted-program relief", {"--switchable-program"});
+    checkRefused(folder, "report leave-out --size 0x1", {"0x1"});
+    const Outcome outcome = run(folder, "report leave-out --size 96x54 --output r");
     CAPTURE(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(outcome.out == "r/leave-out.md and .csv\n");
@@ -203,7 +206,7 @@ TEST_CASE("command line: report stability runs the tests of a case and shows wha
 {
     const TemporaryFolder folder;
     const std::string tests = RELIEF_PROGRAMS "/tests/relief_tests";
-    const Outcome outcome = run(folder.path, "report stability --only S-601 --output r --tests '" + tests + "'");
+    const Outcome outcome = run(folder, "report stability --only S-601 --output r --tests '" + tests + "'");
     CAPTURE(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(outcome.out == "r/stability.md and .csv, and its pictures\n");
@@ -217,27 +220,22 @@ TEST_CASE("command line: report stability runs the tests of a case and shows wha
     CHECK(table.starts_with("id,verdict,what,value,bound\n"));
     CHECK(table.find("S-601,holds,\"length off 1\",") != std::string::npos);
 
-    checkRefused(folder.path, "report stability", {"--tests"});
-    checkRefused(folder.path, "report stability --tests /bin/false", {"/bin/false"});
-    checkRefused(folder.path, "report stability --only S-10 --tests '" + tests + "'", {"no test has this id"});
-    checkRefused(folder.path, "report stability --rounds 3 --tests '" + tests + "'", {"--rounds"});
-    checkRefused(folder.path, "report triplanar --only S-601", {"--only"});
+    checkRefused(folder, "report stability", {"--tests"});
+    checkRefused(folder, "report stability --tests /bin/false", {"/bin/false"});
+    checkRefused(folder, "report stability --only S-10 --tests '" + tests + "'", {"no test has this id"});
+    checkRefused(folder, "report stability --rounds 3 --tests '" + tests + "'", {"--rounds"});
+    checkRefused(folder, "report triplanar --only S-601", {"--only"});
 }
 
 TEST_CASE("command line: report performance writes a text, a table and a plot")
 {
     const TemporaryFolder folder;
-    checkRefused(folder.path, "report performance --part 0", {"--part"});
-    checkRefused(folder.path, "report performance --part 2", {"--part"});
-    checkRefused(folder.path, "report triplanar --part 0.5", {"--part"});
+    checkRefused(folder, "report performance --part 0", {"--part"});
+    checkRefused(folder, "report performance --part 2", {"--part"});
+    checkRefused(folder, "report triplanar --part 0.5", {"--part"});
     const std::string small = "report performance --size 64x36 --rounds 1 --part 1e-9";
-    const Outcome outcome = run(folder.path, small + " --output r");
-    for (const std::string missing : {"install gnuplot-nox", kElsewhere}) {
-        if (outcome.err.find(missing) == std::string::npos) continue;
-        CHECK(outcome.code == 2);
-        MESSAGE("skipped: " << outcome.err);
-        return;
-    }
+    const Outcome outcome = run(folder, small + " --output r");
+    if (isMissing(outcome)) return;
     CAPTURE(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(outcome.out == "r/performance.md, .csv and .svg\n");
@@ -275,7 +273,7 @@ TEST_CASE("command line: report performance writes a text, a table and a plot")
     CHECK(rows["threads"] >= 11);
     CHECK(rows["threads"] % 11 == 0);
 
-    checkRefused(folder.path, "report performance --size big", {"big"});
-    checkRefused(folder.path, "report performance --counted-program nothing", {"--counted-program"});
-    checkRefused(folder.path, small, {"/nowhere"}, "RELIEF_ASSETS=/nowhere");
+    checkRefused(folder, "report performance --size big", {"big"});
+    checkRefused(folder, "report performance --counted-program nothing", {"--counted-program"});
+    checkRefused(folder, small, {"/nowhere"}, "RELIEF_ASSETS=/nowhere");
 }
