@@ -61,7 +61,7 @@ bool Interface::updateDoctor()
             const auto width = static_cast<int>(points(kWidth));
             const int height = std::max(1, width * seen->height / seen->width);
             examined.height = static_cast<float>(height);
-            evidence.update(window.renderer, width < seen->width ? shrunk(*seen, width, height) : *seen, true);
+            evidence.update(window, width < seen->width ? shrunk(*seen, width, height) : *seen, true);
         }
     }
     const auto cure = cured.poll();

@@ -48,7 +48,7 @@ void Interface::pictureArea()
     const float width = std::round(columns * factor), height = std::round(rows * factor);
     const float x = corner.x + std::floor((room.x - width) / 2.0f), y = corner.y + std::floor((room.y - height) / 2.0f);
     const bool smooth = factor < 1.0f;
-    if (pictureVersion != viewer.version || pictureSmooth != smooth) picture.update(window.renderer, shown, smooth);
+    if (pictureVersion != viewer.version || pictureSmooth != smooth) picture.update(window, shown, smooth);
     pictureVersion = viewer.version;
     pictureSmooth = smooth;
 

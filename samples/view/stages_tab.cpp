@@ -22,7 +22,7 @@ void Interface::thumbnail(const live::StageSource& source, float width, float he
         found = thumbnails.try_emplace(file).first;
         if (const Expected<Pixels> golden = readPixels(file)) {
             const auto columns = static_cast<int>(std::lround(width)), rows = static_cast<int>(std::lround(height));
-            found->second.update(window.renderer, shrunk(*golden, columns, rows), true);
+            found->second.update(window, shrunk(*golden, columns, rows), true);
         }
     }
     thumbnailsWanted = thumbnailsWanted || found == thumbnails.end();

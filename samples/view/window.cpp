@@ -33,14 +33,15 @@ Picture& Picture::operator=(Picture&& other) noexcept
     return *this;
 }
 
-void Picture::update(SDL_Renderer* renderer, const Pixels& pixels, bool smooth)
+void Picture::update(Window& window, const Pixels& pixels, bool smooth)
 {
     if (pixels.empty()) return;
+    window.redraw();
     if (mine == nullptr || width != pixels.width || height != pixels.height) {
         if (mine != nullptr) SDL_DestroyTexture(mine);
         width = pixels.width;
         height = pixels.height;
-        mine = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGBA32, SDL_TEXTUREACCESS_STATIC, width, height);
+        mine = SDL_CreateTexture(window.renderer, SDL_PIXELFORMAT_RGBA32, SDL_TEXTUREACCESS_STATIC, width, height);
         if (mine == nullptr) return;
         SDL_SetTextureBlendMode(mine, SDL_BLENDMODE_NONE);
     }
@@ -147,6 +148,7 @@ void Window::setScale(float scale)
     SDL_SetTextureBlendMode(letters, SDL_BLENDMODE_BLEND);
     SDL_SetTextureScaleMode(letters, SDL_ScaleModeLinear);
     atlas.SetTexID(letters);
+    redraw();
 }
 
 void Window::take(const SDL_Event& event)
@@ -160,6 +162,7 @@ void Window::take(const SDL_Event& event)
         mouseY = static_cast<float>(y) * pixelsPerPoint();
     };
     if (event.type == SDL_MOUSEMOTION) move(event.motion.x, event.motion.y);
+    if (event.type == SDL_WINDOWEVENT) redraw();  // shown again, or of another size
     if (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_LEAVE) mouseX = mouseY = -1e6f;
     if (event.type != SDL_MOUSEBUTTONDOWN && event.type != SDL_MOUSEBUTTONUP) return;
     move(event.button.x, event.button.y);
@@ -185,6 +188,9 @@ void Window::beginFrame()
 void Window::endFrame()
 {
     ImGui::Render();
+    std::vector<unsigned char> now = interfaceBytes(*ImGui::GetDrawData());
+    if (now == drawn) return;
+    drawn = std::move(now);
     SDL_SetRenderDrawColor(renderer, 18, 19, 21, 255);
     SDL_RenderClear(renderer);
     drawInterface(renderer, *ImGui::GetDrawData());
@@ -193,7 +199,7 @@ void Window::endFrame()
 
 void Window::show(const Pixels& picture)
 {
-    whole.update(renderer, picture, true);
+    whole.update(*this, picture, true);
     SDL_RenderClear(renderer);
     if (whole.texture() != nullptr) SDL_RenderCopy(renderer, whole.texture(), nullptr, nullptr);
     SDL_RenderPresent(renderer);

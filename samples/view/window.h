@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "relief/error.h"
 
@@ -17,6 +18,7 @@ union SDL_Event;
 namespace relief::samples {
 
 struct Pixels;
+class Window;
 
 // A picture that the window can draw.
 class Picture
@@ -27,7 +29,7 @@ public:
     Picture(Picture&& other) noexcept;
     Picture& operator=(Picture&& other) noexcept;
 
-    void update(SDL_Renderer* renderer, const Pixels& pixels, bool smooth);
+    void update(Window& window, const Pixels& pixels, bool smooth);
     SDL_Texture* texture() const { return mine; }
 
 private:
@@ -62,7 +64,8 @@ public:
 
     void take(const SDL_Event& event);  // for the controls
     void beginFrame();
-    void endFrame();
+    void endFrame();                  // draws, unless the last frame looks the same
+    void redraw() { drawn.clear(); }  // the next frame is drawn in any case
 
     // Shows this picture alone, over the whole window.
     void show(const Pixels& picture);
@@ -79,6 +82,7 @@ private:
     SDL_Window* window = nullptr;
     SDL_Texture* letters = nullptr;
     Picture whole;
+    std::vector<unsigned char> drawn;  // by the last frame
     bool hasInterface = false;
     float itsScale = 1.0f;
     std::string title;
