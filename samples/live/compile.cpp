@@ -134,7 +134,11 @@ std::string stageFunction(const std::string& text)
 
 Compile::Compile(const std::string& compiler, const std::vector<std::string>& itsWords, SourceText itsSource,
                  const Division& division, const std::string& folder, int version)
-    : source(std::move(itsSource)), stem(folder + "/" + std::to_string(version)), begin(Clock::now())
+    : source(std::move(itsSource)),
+      kept(compiler, itsWords, source),
+      compileBegin(std::filesystem::file_time_type::clock::now()),
+      stem(folder + "/" + std::to_string(version)),
+      begin(Clock::now())
 {
     if (stageFunction(source.text).empty()) {
         result.errors = {{.file = source.path,
@@ -142,14 +146,20 @@ Compile::Compile(const std::string& compiler, const std::vector<std::string>& it
                                      "which gives the stage; `relief new` writes one"}};
         return;
     }
+    if (kept.copyTo(stem + ".so")) {
+        result.object = stem + ".so";
+        return;
+    }
     const std::string home = std::filesystem::path(source.path).parent_path().string();
     for (unsigned part = 0; part < division.parts; ++part) {
         const std::string base = stem + "_" + std::to_string(part);
         std::ofstream(base + ".cpp", std::ios::binary) << completeText(source, division, part);
         objects.push_back(base + ".o");
+        lists.push_back(base + ".d");
         std::vector<std::string> words = {compiler};
         words.insert(words.end(), itsWords.begin(), itsWords.end());
-        words.insert(words.end(), {"-iquote", home.empty() ? "." : home, "-c", base + ".cpp", "-o", objects.back()});
+        words.insert(words.end(), {"-iquote", home.empty() ? "." : home, "-MMD", "-MF", lists.back(), "-c",
+                                   base + ".cpp", "-o", objects.back()});
         running.push_back(start(words));
     }
 }
@@ -242,7 +252,7 @@ Compiled Compile::failed(std::string printed)
 
 std::optional<Compiled> Compile::poll()
 {
-    if (objects.empty()) return std::move(result);  // refused
+    if (objects.empty()) return std::move(result);  // refused, or not compiled
     bool all = true;
     for (Process& process : running) {
         const bool ended = read(process);
@@ -265,6 +275,7 @@ std::optional<Compiled> Compile::poll()
     }
     result.linkMilliseconds = millisecondsSince(begin);
     result.object = stem + ".so";
+    kept.keep(result.object, lists, compileBegin);
     return std::move(result);
 }
 

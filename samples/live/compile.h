@@ -10,6 +10,7 @@
 #include <sys/types.h>
 
 #include "live/diagnostics.h"
+#include "live/kept_object.h"
 #include "live/toolchain.h"
 
 namespace relief::samples::live {
@@ -56,7 +57,7 @@ struct Compiled
     double compileMilliseconds = 0.0, linkMilliseconds = 0.0;
 };
 
-// A compile that runs. It ends with the value, at once.
+// A compile that runs, or the object of an earlier one. It ends with the value, at once.
 class Compile
 {
 public:
@@ -91,9 +92,11 @@ private:
     Compiled failed(std::string printed);
 
     SourceText source;
+    KeptObject kept;
+    std::filesystem::file_time_type compileBegin;
     std::string stem;  // of the files
     std::vector<Process> running;
-    std::vector<std::string> objects;
+    std::vector<std::string> objects, lists;
     bool linking = false;
     Compiled result;
     std::chrono::steady_clock::time_point begin;
