@@ -31,10 +31,13 @@ void laplacian(const Plane& h, int width, int height, Plane& to)
         const float* below = &h[static_cast<std::size_t>((y + height - 1) % height) * static_cast<std::size_t>(width)];
         const float* above = &h[static_cast<std::size_t>((y + 1) % height) * static_cast<std::size_t>(width)];
         float* out = &to[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
-        for (int x = 0; x < width; ++x) {
-            const int left = x > 0 ? x - 1 : width - 1, right = x + 1 < width ? x + 1 : 0;
-            out[x] = 4.0f * row[x] - row[left] - row[right] - below[x] - above[x];
-        }
+        const auto at = [&](int x, int left, int right) {
+            return 4.0f * row[x] - row[left] - row[right] - below[x] - above[x];
+        };
+        const int last = width - 1;
+        out[0] = at(0, last, std::min(1, last));
+        for (int x = 1; x < last; ++x) out[x] = at(x, x - 1, x + 1);
+        out[last] = at(last, std::max(last - 1, 0), 0);
     }
 }
 
