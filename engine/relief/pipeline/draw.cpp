@@ -29,7 +29,8 @@ constexpr int kBlocksOfLargeTriangle = 64;
 // Of one run of blocks.
 struct Counts
 {
-    unsigned blocks = 0, quadPixels = 0, pixels = 0, colorless = 0, covered = 0, invalid = 0;
+    unsigned blocks = 0, quadPixels = 0, pixels = 0, hidden = 0, colorless = 0, invalid = 0;
+    unsigned whole = 0;  // blocks of which all pixels are live: in none of the pixels above
     unsigned stencilTested = 0, stencilPassed = 0;
 };
 
@@ -171,15 +172,28 @@ void storeEdges(const Float (&edge)[3], float (&to)[3][kLanes])
     edge[2].store(to[2]);
 }
 
+// A block that is not to be shaded. False, for testEarly().
+bool hide(const CoveredBlock& covered, Counts& counts)
+{
+    counts.hidden += static_cast<unsigned>(countBits(covered.coverage));
+    return false;
+}
+
 // A block that is to be shaded.
 void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsigned live, Counts& counts)
 {
     block.live = live;
-    block.quads = live == kAllLanes ? kAllLanes : wholeQuads(leavesOut::hidden ? live : covered.coverage);
     block.index = index;
     block.covered = covered;
+    if (live == kAllLanes) {
+        block.quads = kAllLanes;
+        ++counts.whole;
+        return;
+    }
+    block.quads = wholeQuads(leavesOut::hidden ? live : covered.coverage);
     counts.quadPixels += static_cast<unsigned>(countBits(block.quads));
     counts.pixels += static_cast<unsigned>(countBits(live));
+    counts.hidden += static_cast<unsigned>(countBits(covered.coverage & ~live));
 }
 
 // Before the program runs: which pixels pass the depth test. `inTile`: bounds of all blocks together. Their depth is
@@ -192,8 +206,7 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
     const unsigned coverage = covered.coverage;
-    counts.covered += static_cast<unsigned>(countBits(coverage));
-    if (isBehind(state, weights, inTile) || isBehind(state, weights, tile.bounds(index))) return false;
+    if (isBehind(state, weights, inTile) || isBehind(state, weights, tile.bounds(index))) return hide(covered, counts);
     unsigned live = coverage;
     if (state.usesDepth || state.usesStencil || state.readsEdges) {
         Float edge[3];
@@ -203,7 +216,7 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
         } else if (state.usesStencil) {
             live = testStencilAndDepth(state, triangle.isFront, live, weights.depth(edge[1], edge[2]),
                                        depthsOf(weights), index, index, tile, counts);
-            if (leavesOut::hidden && live == 0) return false;
+            if (leavesOut::hidden && live == 0) return hide(covered, counts);
         } else if (state.usesDepth) {
             float* const stored = tile.depth(index);
             const Float depth = weights.depth(edge[1], edge[2]);
@@ -213,7 +226,7 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
             } else {
                 const Float old = Float::load(stored);
                 live &= compareBy(state.depthTest, depth, old).bits();
-                if (leavesOut::hidden && live == 0) return false;
+                if (leavesOut::hidden && live == 0) return hide(covered, counts);
                 if (!state.decides)
                     writeDepth(state, depthsOf(weights), coverage == kAllLanes, live, depth, old, stored,
                                tile.bounds(index));
@@ -234,8 +247,7 @@ bool testEarly(const State& state, const TriangleInTile<true>& triangle, const C
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
     DepthBounds& bounds = tile.bounds(index);
-    counts.covered += static_cast<unsigned>(countBits(covered.coverage));
-    if (isBehind(state, weights, inTile) || isBehind(state, weights, bounds)) return false;
+    if (isBehind(state, weights, inTile) || isBehind(state, weights, bounds)) return hide(covered, counts);
     Float edge[3];
     triangle.edges.at(x, y, edge);
     storeEdges(edge, block.edge);
@@ -263,7 +275,7 @@ bool testEarly(const State& state, const TriangleInTile<true>& triangle, const C
         block.liveSamples[static_cast<std::size_t>(s)] = static_cast<std::uint16_t>(lanes);
         live |= lanes;
     }
-    if (leavesOut::hidden && live == 0) return false;
+    if (leavesOut::hidden && live == 0) return hide(covered, counts);
     if (everywhere == kAllLanes && state.depthWrite && !state.decides && !state.usesStencil)
         updateBounds(state.depthTest, weights.nearest, weights.farthest, true, bounds);
     setBlock(block, covered, index, live, counts);
@@ -472,6 +484,8 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
             for (unsigned rest = targets; rest != 0; rest &= rest - 1) merge(std::countr_zero(rest));
         }
     }
+    counts.pixels += counts.whole * kLanes;
+    counts.quadPixels += counts.whole * kLanes;
     if (!runsProgram) counts.colorless = counts.pixels;
     if (!state.depthWrite) return;
     updateBounds(state.depthTest, 0.0f, 1.0f, false, tile.wholeBounds());  // whatever was written
@@ -512,7 +526,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     statistics.pixelsColorless += counts.colorless;
     statistics.stencilPassed += counts.stencilPassed;
     statistics.stencilFailed += counts.stencilTested - counts.stencilPassed;
-    statistics.pixelsHidden += counts.covered - counts.pixels;
+    statistics.pixelsHidden += counts.hidden;
     statistics.invalidColors += counts.invalid;
 }
 
