@@ -189,8 +189,8 @@ void Window::endFrame()
 {
     ImGui::Render();
     std::vector<unsigned char> now = interfaceBytes(*ImGui::GetDrawData());
-    if (now == drawn) return;
-    drawn = std::move(now);
+    if (now == lastFrame) return;
+    lastFrame = std::move(now);
     SDL_SetRenderDrawColor(renderer, 18, 19, 21, 255);
     SDL_RenderClear(renderer);
     drawInterface(renderer, *ImGui::GetDrawData());

@@ -65,7 +65,7 @@ public:
     void take(const SDL_Event& event);  // for the controls
     void beginFrame();
     void endFrame();                  // draws, unless the last frame looks the same
-    void redraw() { drawn.clear(); }  // the next frame is drawn in any case
+    void redraw() { lastFrame.clear(); }  // the next frame is drawn in any case
 
     // Shows this picture alone, over the whole window.
     void show(const Pixels& picture);
@@ -82,7 +82,7 @@ private:
     SDL_Window* window = nullptr;
     SDL_Texture* letters = nullptr;
     Picture whole;
-    std::vector<unsigned char> drawn;  // by the last frame
+    std::vector<unsigned char> lastFrame;  // what it drew
     bool hasInterface = false;
     float itsScale = 1.0f;
     std::string title;

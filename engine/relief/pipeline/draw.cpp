@@ -84,6 +84,7 @@ template <bool severalSamples>
 struct TriangleInTile
 {
     TriangleWeights weights;
+    DepthPlane<Float> plane;
     TriangleEdges edges;
     std::array<TriangleEdges, severalSamples ? kMaxSamples : 0> sampleEdges;
     int lane = -1;
@@ -94,6 +95,7 @@ struct TriangleInTile
         lane = triangle;
         isFront = relief::isFront(draw.geometry, *batch.triangle[lane]);
         weights.set(batch, triangle);
+        plane.set(batch, triangle);
         edges.set(batch, triangle);
         if constexpr (severalSamples) {
             for (std::size_t s = 0; s < static_cast<std::size_t>(batch.samples->count); ++s)
@@ -206,7 +208,8 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
     const unsigned coverage = covered.coverage;
-    if (isBehind(state, weights, inTile) || isBehind(state, weights, tile.bounds(index))) return hide(covered, counts);
+    DepthBounds& bounds = tile.bounds(index);
+    if (isBehind(state, weights, inTile) || isBehind(state, weights, bounds)) return hide(covered, counts);
     unsigned live = coverage;
     if (state.usesDepth || state.usesStencil || state.readsEdges) {
         Float edge[3];
@@ -219,17 +222,16 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
             if (leavesOut::hidden && live == 0) return hide(covered, counts);
         } else if (state.usesDepth) {
             float* const stored = tile.depth(index);
-            const Float depth = weights.depth(edge[1], edge[2]);
-            if (replacesDepths(state, weights, coverage, tile.bounds(index))) {
+            const Float depth = triangle.plane.stored(edge[1], edge[2]);
+            if (replacesDepths(state, weights, coverage, bounds)) {
                 depth.store(stored);
-                tile.bounds(index) = depthsOf(weights);
+                bounds = depthsOf(weights);
             } else {
                 const Float old = Float::load(stored);
                 live &= compareBy(state.depthTest, depth, old).bits();
                 if (leavesOut::hidden && live == 0) return hide(covered, counts);
                 if (!state.decides)
-                    writeDepth(state, depthsOf(weights), coverage == kAllLanes, live, depth, old, stored,
-                               tile.bounds(index));
+                    writeDepth(state, depthsOf(weights), coverage == kAllLanes, live, depth, old, stored, bounds);
             }
         }
         if (state.readsEdges) storeEdges(edge, block.edge);
@@ -453,13 +455,17 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
         const bool isNew = mayShare && tile.seen.draw != &draw;
         const std::size_t groupSize = state.decides ? 1 : isNew ? kFirstGroup : kBlocksPerGroup;
         ShadedBlock* free = group.data();
-        for (; next != blocks.end() && free != group.data() + groupSize; ++next) {
-            if (next->triangle != triangle.lane) {
-                triangle.set(draw, batch, next->triangle);
-                corners[next->triangle] = cornersOf(draw, chunk, *batch.triangle[triangle.lane], triangle.isFront);
+        ShadedBlock* const full = free + groupSize;
+        while (next != blocks.end() && free != full) {
+            const auto end = next + std::min(blocks.end() - next, full - free);  // there is room for all of these
+            for (; next != end; ++next) {
+                if (next->triangle != triangle.lane) {
+                    triangle.set(draw, batch, next->triangle);
+                    corners[next->triangle] = cornersOf(draw, chunk, *batch.triangle[triangle.lane], triangle.isFront);
+                }
+                const SampleCoverage* of = severalSamples ? samples + (next - blocks.begin()) : nullptr;
+                if (testEarly(state, triangle, *next, of, inTile, *free, tile, counts)) ++free;
             }
-            const SampleCoverage* of = severalSamples ? samples + (next - blocks.begin()) : nullptr;
-            if (testEarly(state, triangle, *next, of, inTile, *free, tile, counts)) ++free;
         }
         const std::span<ShadedBlock> shaded(group.data(), free);
         if (!runsProgram || shaded.empty()) continue;

@@ -100,6 +100,29 @@ struct BlockWeights
     Float inverseSum;                  // 1 / sum(E_j / w_j), w scaled by TriangleBatch::scale
 };
 
+// The depth of a triangle of a batch, which is linear on screen. `Constant`: Float, where many blocks are asked for, or
+// Broadcast.
+template <class Constant>
+struct DepthPlane
+{
+    Constant inverseArea, z0, dz1, dz2;  // the batch's
+    Constant nearest, farthest;          // the corners' depths, within 0 ... 1
+
+    void set(const TriangleBatch& batch, int lane)
+    {
+        inverseArea = batch.inverseArea[lane];
+        z0 = batch.z0[lane];
+        dz1 = batch.dz1[lane];
+        dz2 = batch.dz2[lane];
+        nearest = batch.nearest[lane];
+        farthest = batch.farthest[lane];
+    }
+    Float at(Float edge1, Float edge2) const { return z0 + edge1 * inverseArea * dz1 + edge2 * inverseArea * dz2; }
+
+    // What is tested and stored is never outside 0 ... 1 and the corners' range, so that coarse depth bounds are safe.
+    Float stored(Float edge1, Float edge2) const { return clamp(at(edge1, edge2), nearest, farthest); }
+};
+
 // How much of each corner a pixel has. Of one triangle of a batch, which must live as long.
 class TriangleWeights
 {
@@ -110,10 +133,7 @@ public:
         lane = triangle;
         nearest = batch->nearest[lane];
         farthest = batch->farthest[lane];
-        inverseArea = batch->inverseArea[lane];
-        z0 = batch->z0[lane];
-        dz1 = batch->dz1[lane];
-        dz2 = batch->dz2[lane];
+        plane.set(triangles, triangle);
         for (int k = 0; k < 3; ++k) invW[k] = batch->invW[k][lane];
     }
 
@@ -122,8 +142,8 @@ public:
     BlockWeights of(const Float (&edge)[3], unsigned covered) const
     {
         BlockWeights w;
-        w.linear1 = edge[1] * inverseArea;
-        w.linear2 = edge[2] * inverseArea;
+        w.linear1 = edge[1] * plane.inverseArea;
+        w.linear2 = edge[2] * plane.inverseArea;
 
         Float e[3] = {edge[0], edge[1], edge[2]};
         Float sum = e[0] * invW[0] + e[1] * invW[1] + e[2] * invW[2];
@@ -143,20 +163,14 @@ public:
         return w;
     }
 
-    // Depth is linear on screen.
-    Float depthPlane(Float edge1, Float edge2) const
-    {
-        return z0 + edge1 * inverseArea * dz1 + edge2 * inverseArea * dz2;
-    }
-    // What is tested and stored is never outside 0 ... 1 and the corners' range, so that coarse depth bounds are safe.
-    Float depth(Float edge1, Float edge2) const { return clamp(depthPlane(edge1, edge2), nearest, farthest); }
+    Float depth(Float edge1, Float edge2) const { return plane.stored(edge1, edge2); }
 
     // SV_POSITION.z: the depth that is stored, where the triangle covers the pixel; beyond it the plane goes on, and
     // with it the difference between the neighbours.
     Float positionZ(const Float (&edge)[3], unsigned covered) const
     {
-        const Float plane = depthPlane(edge[1], edge[2]), stored = clamp(plane, nearest, farthest);
-        return covered == kAllLanes ? stored : select(Mask::fromBits(covered), stored, plane);
+        const Float stored = plane.stored(edge[1], edge[2]);
+        return covered == kAllLanes ? stored : select(Mask::fromBits(covered), stored, plane.at(edge[1], edge[2]));
     }
 
     // Clip-space w at the pixels.
@@ -167,7 +181,8 @@ public:
 private:
     const TriangleBatch* batch;
     int lane;
-    Broadcast invW[3], inverseArea, z0, dz1, dz2;  // the batch's, of this triangle
+    DepthPlane<Broadcast> plane;
+    Broadcast invW[3];  // the batch's, of this triangle
 };
 
 // A word in all lanes as it is: it may be an integer whose bits are a signalling NaN's.

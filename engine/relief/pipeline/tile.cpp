@@ -224,10 +224,16 @@ std::size_t Tile::wordCount(const Plane& plane) const
     return static_cast<std::size_t>(blockCount * kLanes * pattern->count * wordsPerPixel(plane.format));
 }
 
-void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
+void Tile::moveTo(int x, int y)
 {
     originX = x;
     originY = y;
+    blockAtOrigin = numberOf(x, y);
+}
+
+void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
+{
+    moveTo(x, y);
     seen = {};
     ClearValues values(clear);
     for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -342,8 +348,7 @@ std::vector<std::int32_t> Tile::save() const
 
 void Tile::restore(int x, int y, const std::vector<std::int32_t>& saved)
 {
-    originX = x;
-    originY = y;
+    moveTo(x, y);
     seen = {};
     const std::int32_t* from = saved.data();
     for (const Plane& plane : planes) {

@@ -69,11 +69,7 @@ public:
 
     const SamplePattern& samples() const { return *pattern; }
 
-    int blockAt(int x, int y) const
-    {
-        const auto column = static_cast<unsigned>(x - originX), row = static_cast<unsigned>(y - originY);
-        return static_cast<int>(row / kBlockHeight) * blocksWide + static_cast<int>(column / kBlockWidth);
-    }
+    int blockAt(int x, int y) const { return numberOf(x, y) - blockAtOrigin; }
 
     // The colour attachments, a bit each.
     unsigned colors() const { return mColors; }
@@ -118,9 +114,17 @@ private:
     std::size_t wordCount(const Plane& plane) const;
     void setBounds();
 
+    // Blocks counted row by row, from the target's first pixel on, as if it were as wide as the tile.
+    int numberOf(int x, int y) const
+    {
+        const auto column = static_cast<unsigned>(x), row = static_cast<unsigned>(y);
+        return static_cast<int>(row / kBlockHeight) * blocksWide + static_cast<int>(column / kBlockWidth);
+    }
+    void moveTo(int x, int y);
+
     int size, blocksWide, blockCount;
     const SamplePattern* pattern;
-    int originX = 0, originY = 0;
+    int originX = 0, originY = 0, blockAtOrigin = 0;
     struct ColorPlane
     {
         Format format;
