@@ -1,6 +1,7 @@
 #include "live/kept_object.h"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -48,7 +49,7 @@ std::vector<std::string> filesOfList(const std::string& list)
     return files;
 }
 
-// The oldest go. A list has the name of its object's text, and goes with the last object of that text.
+// The oldest go, and with each the list of its text: what else was made of the same text is compiled again.
 void makeRoom(const fs::path& folder)
 {
     std::vector<std::pair<fs::file_time_type, fs::path>> objects;
@@ -108,6 +109,7 @@ bool KeptObject::copyTo(const std::string& path) const
 
 void KeptObject::keep(const std::string& path, const std::vector<std::string>& lists, fs::file_time_type begin) const
 {
+    const fs::file_time_type latest = begin - std::chrono::milliseconds(20);  // what files' times may lag behind
     std::set<std::string> names;
     for (const std::string& list : lists) {
         const Expected<std::string> text = readText(list);
@@ -115,7 +117,7 @@ void KeptObject::keep(const std::string& path, const std::vector<std::string>& l
         for (const std::string& file : filesOfList(*text)) {
             if (fs::path(file) == fs::path(list).replace_extension(".cpp")) continue;  // the text, which the name has
             std::error_code error;
-            if (fs::last_write_time(file, error) >= begin || error) return;  // perhaps after the compiler read it
+            if (fs::last_write_time(file, error) >= latest || error) return;  // perhaps after the compiler read it
             names.insert(file);
         }
     }
