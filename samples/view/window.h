@@ -64,7 +64,7 @@ public:
 
     void take(const SDL_Event& event);  // for the controls
     void beginFrame();
-    void endFrame();                  // draws, unless the last frame looks the same
+    void endFrame();                      // draws, unless the last frame looks the same
     void redraw() { lastFrame.clear(); }  // the next frame is drawn in any case
 
     // Shows this picture alone, over the whole window.
