@@ -9,5 +9,7 @@ set ylabel "CPU seconds to compile"
 set yrange [0:*]
 unset xtics
 stage(k) = strcol("kind") eq "stage" ? column(k) : NaN
+stats "build.csv" using (stage("cpu_seconds")) nooutput
+set xrange [-1:STATS_records]
 plot before using (stage("cpu_seconds")) with points pointtype 4 title "before", \
      "build.csv" using (stage("cpu_seconds")) with points pointtype 7 title "now"
