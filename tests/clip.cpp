@@ -2,17 +2,13 @@
 // show. References are in double (see HomogeneousTriangle in pipeline_fixture.h).
 #include "relief/pipeline/clip.h"
 
-#include <limits>
-
+#include "numbers.h"
 #include "pipeline_fixture.h"
 #include "relief/pipeline/viewport_transform.h"
 
 using namespace fixture;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Positions are moved by at most a rounding to 1/256 px and, where the guard band cuts, 2^-23 of it, four times.
 constexpr double kEdgeTolerance = 1.0 / 32.0;

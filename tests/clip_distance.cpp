@@ -2,8 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "numbers.h"
 #include "pipeline_fixture.h"
 
 using namespace fixture;
@@ -156,7 +156,6 @@ TEST_CASE("clip distance: neighbours that are cut still meet")
 
 TEST_CASE("clip distance: infinities and NaN cut, or do not, and nothing breaks (S-209)")
 {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
     struct Given
     {
         float distance;

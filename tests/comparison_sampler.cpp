@@ -4,14 +4,13 @@
 #include <doctest/doctest.h>
 
 #include <bit>
-#include <limits>
 
+#include "numbers.h"
 #include "pipeline_fixture.h"
 #include "sampler_fixture.h"
 
 using namespace fixture;
 using sampler_fixture::address;
-using sampler_fixture::kFormats;
 using sampler_fixture::kModes;
 using sampler_fixture::randomTexture;
 
@@ -44,7 +43,7 @@ TEST_CASE("SampleCmp: the comparisons' results are weighted, in every mode and f
     Random random(81);
     double largest = 0.0;
     int wrongWhole = 0;
-    for (const TexelFormat format : kFormats) {
+    for (const TexelFormat format : sampler_fixture::kFormats) {
         const Texture texture = randomTexture(format, 13, 9);
         for (const AddressMode mode : kModes) {
             for (int compare = 0; compare < 8; ++compare) {
@@ -83,7 +82,6 @@ TEST_CASE("SampleCmp: the comparisons' results are weighted, in every mode and f
 
 TEST_CASE("SampleCmp: NaN, infinities, one texel, and no texture at all")
 {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
     const Texture one = *Texture::fromRed(1, 1, std::array{0.5f});
     SamplerComparisonState s = {&one, Compare::lessEqual, AddressMode::clamp, AddressMode::clamp};
     const auto share = [&](float u, float reference) {

@@ -2,6 +2,7 @@
 // what is refused.
 #include "relief/texture/cube_map.h"
 
+#include "contents.h"
 #include "cube_fixture.h"
 
 using namespace cube_fixture;
@@ -86,11 +87,6 @@ std::string errorOf(const Expected<CubeMap>& map)
     REQUIRE(!map.has_value());
     CHECK(map.error().message.find('\n') == std::string::npos);
     return map.error().message;
-}
-
-bool contains(const std::string& text, const char* words)
-{
-    return text.find(words) != std::string::npos;
 }
 
 // What a sample 1e-5 beside an edge or corner differs by between the faces that meet there, for directions all along

@@ -2,12 +2,11 @@
 #include "relief/texture/cube_sampler.h"
 
 #include "cube_fixture.h"
+#include "numbers.h"
 
 using namespace cube_fixture;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 float3 perLaneDirection(const std::function<Direction(int)>& of)
 {

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "numbers.h"
 #include "pipeline_fixture.h"
 
 using namespace fixture;
 
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr RenderState kReversed = {Compare::greater, true, true, Cull::none, Blend::off};
 
 // Depth of a view distance: d = a + b / z.

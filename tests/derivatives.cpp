@@ -144,7 +144,7 @@ TEST_CASE("derivatives of vectors are those of the components")
 TEST_CASE("derivatives: a NaN reaches the pixels that read it, and no others")
 {
     Float v = quads();
-    v.set(1, lane_check::kNan);
+    v.set(1, kNan);
     const Float dx = ddx(v);
     const Float dy = ddy(v);
     for (int i = 0; i < kLanes; ++i) {

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 
 #include <doctest/doctest.h>
 
+#include "common/pattern.h"
 #include "common/stage.h"
+#include "contents.h"
 #include "relief/texture/image.h"
 #include "stages/page_diff.h"
 
@@ -20,17 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using relief::samples::allStages;
+using relief::samples::Match;
+using relief::samples::Pattern;
 using relief::samples::Stage;
 
 const fs::path kSource = RELIEF_SOURCE_FOLDER;
-
-std::string contents(const fs::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 // Files of the project with this ending; not what was built.
 std::vector<fs::path> filesEndingIn(const fs::path& folder, const std::string& ending)
@@ -172,12 +166,12 @@ TEST_CASE("documents: lines that are new in a stage's programs are marked")
 
 TEST_CASE("documents: every relative link resolves")
 {
-    const std::regex link(R"(\]\(([^)\s]+)\)|(?:src|href)=\"([^\"]+)\")");
+    const Pattern link(R"(\]\(([^)\s]+)\)|(?:src|href)=\"([^\"]+)\")");
     int checked = 0;
     for (const fs::path& page : filesEndingIn(kSource, ".md")) {
         const std::string text = contents(page);
-        for (auto it = std::sregex_iterator(text.begin(), text.end(), link); it != std::sregex_iterator(); ++it) {
-            std::string target = (*it)[1].matched ? (*it)[1].str() : (*it)[2].str();
+        for (const Match& m : link.find(text)) {
+            std::string target = m.has(1) ? m[1] : m[2];
             if (target.starts_with("http") || target.starts_with("#") || target.starts_with("mailto:")) continue;
             target = target.substr(0, target.find('#'));
             CAPTURE(page);
@@ -192,14 +186,14 @@ TEST_CASE("documents: every relative link resolves")
 TEST_CASE("documents: the lines that porting.md shows of a file stand in that file")
 {
     const std::string page = contents(kSource / "docs/porting.md");
-    const std::regex block("[Ii]n `([^`]+)`:\n\n```cpp\n([^`]*)```");
+    const Pattern block("[Ii]n `([^`]+)`:\n\n```cpp\n([^`]*)```");
     int checked = 0;
-    for (auto it = std::sregex_iterator(page.begin(), page.end(), block); it != std::sregex_iterator(); ++it) {
-        const fs::path file = kSource / (*it)[1].str();
+    for (const Match& m : block.find(page)) {
+        const fs::path file = kSource / m[1];
         CAPTURE(file);
         REQUIRE(fs::exists(file));
         const std::string text = pages::withoutMarks(contents(file));
-        std::stringstream lines((*it)[2].str());
+        std::stringstream lines(m[2]);
         for (std::string line; std::getline(lines, line);) {
             CAPTURE(line);
             CHECK(text.find(line + "\n") != std::string::npos);
@@ -222,15 +216,14 @@ TEST_CASE("documents: the engine's folders include downwards only")
         {"trace", {"lanes", "hlsl", "texture", "mesh", "pipeline"}},
         {"check", {"lanes", "hlsl", "texture", "mesh", "pipeline", "trace"}},
     };
-    const std::regex include(R"re(#include "relief/([a-z_]+)/)re");
+    const Pattern include(R"re(#include "relief/([a-z_]+)/)re");
     int checked = 0;
     for (const auto& [folder, allowed] : below) {
         for (const std::string ending : {".h", ".cpp"}) {
             for (const fs::path& path : filesEndingIn(kSource / "engine/relief" / folder, ending)) {
                 const std::string text = contents(path);
-                for (auto it = std::sregex_iterator(text.begin(), text.end(), include); it != std::sregex_iterator();
-                     ++it) {
-                    const std::string used = (*it)[1].str();
+                for (const Match& m : include.find(text)) {
+                    const std::string used = m[1];
                     CAPTURE(path);
                     CAPTURE(used);
                     CHECK((used == folder || allowed.count(used) == 1));
@@ -259,13 +252,13 @@ TEST_CASE("documents: the engine's map names every file of it")
 TEST_CASE("documents: test names have no character that splits or joins CMake's lists")
 {
     // doctest_discover_tests would lose or merge tests, in silence.
-    const std::regex name(R"re(TEST_CASE\("([^"]*)"\))re");
+    const Pattern name(R"re(TEST_CASE\("([^"]*)"\))re");
     int checked = 0;
     for (const fs::path& path : filesEndingIn(kSource / "tests", ".cpp")) {
         const std::string text = contents(path);
-        for (auto it = std::sregex_iterator(text.begin(), text.end(), name); it != std::sregex_iterator(); ++it) {
-            CAPTURE((*it)[1].str());
-            CHECK((*it)[1].str().find_first_of(";[]") == std::string::npos);
+        for (const Match& m : name.find(text)) {
+            CAPTURE(m[1]);
+            CHECK(m[1].find_first_of(";[]") == std::string::npos);
             ++checked;
         }
     }
@@ -274,19 +267,18 @@ TEST_CASE("documents: test names have no character that splits or joins CMake's 
 
 TEST_CASE("documents: nothing in the engine prints, exits or throws")
 {
-    const std::regex forbidden(R"(\b(printf|std::cout|std::cerr|exit\(|abort\(|throw )\b)");
+    const Pattern forbidden(R"(\b(printf|std::cout|std::cerr|exit\(|abort\(|throw )\b)");
     for (const std::string ending : {".h", ".cpp"}) {
         for (const fs::path& path : filesEndingIn(kSource / "engine/relief", ending)) {
             const std::string text = contents(path);
-            std::smatch match;
-            std::string code = std::regex_replace(text, std::regex("//[^\n]*"), "");
-            code = std::regex_replace(code, std::regex("snprintf"), "");
+            std::string code = Pattern("//[^\n]*").replace(text, "");
+            code = Pattern("snprintf").replace(code, "");
             // What stands in a test program's main() prints.
             for (const char* adapter : {"test_program.h", "main.h"}) {
-                if (path.filename() == adapter) code = std::regex_replace(code, std::regex("fprintf"), "");
+                if (path.filename() == adapter) code = Pattern("fprintf").replace(code, "");
             }
             CAPTURE(path);
-            CHECK_FALSE(std::regex_search(code, match, forbidden));
+            CHECK(forbidden.find(code).empty());
         }
     }
 }
@@ -295,10 +287,11 @@ TEST_CASE("documents: the table of machines has every row that there is, as it l
 {
     const std::string page = contents(kSource / "docs/machines.md"), script = contents(kSource / "tests/machines/run");
     const std::string results = contents(kSource / "tests/machines/results.txt");
-    const std::regex row("\n([a-z0-9+-]+) +\\| [^\n]*\\|[^\n]*\\|");
+    const Pattern row("\n([a-z0-9+-]+) +\\| [^\n]*\\|[^\n]*\\|");
     int rows = 0;
-    for (std::sregex_iterator it(script.begin(), script.end(), row), end; it != end; ++it, ++rows) {
-        const std::string name = (*it)[1];
+    for (const Match& m : row.find(script)) {
+        ++rows;
+        const std::string name = m[1];
         CAPTURE(name);
         CHECK(page.find("`" + name + "`") != std::string::npos);
         CHECK(("\n" + results).find("\n" + name + " ") != std::string::npos);

@@ -2,13 +2,12 @@
 #include "relief/shading/environment.h"
 
 #include "cube_fixture.h"
+#include "numbers.h"
 #include "relief/pipeline/workers.h"
 
 using namespace cube_fixture;
 
 namespace {
-
-constexpr double kPi = 3.14159265358979324;
 
 // The integral by the definition: radiance times D(h) n.l over the sphere, h half-way between n and l, divided by the
 // same without radiance. Rings of equal tilt of h, as GGX spreads them, and points around each.

@@ -7,32 +7,13 @@
 
 #include <doctest/doctest.h>
 
+#include "png16.h"
 #include "relief/texture/image.h"
 #include "temporary_folder.h"
 
 using namespace relief;
 
 namespace {
-
-std::string bigEndian(std::uint32_t value)
-{
-    std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-    return bytes;
-}
-
-std::string little(std::uint32_t value, int bytes)
-{
-    std::string text;
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> 8 * i & 0xff);
-    return text;
-}
-
-// stb does not look at checksums.
-std::string chunk(const std::string& type, const std::string& data)
-{
-    return bigEndian(static_cast<std::uint32_t>(data.size())) + type + data + bigEndian(0);
-}
 
 // One row of indices with this palette, not compressed.
 std::string png(const std::string& palette, const std::string& indices)

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "contents.h"
 #include "gltf_file.h"
 #include "png16.h"
 #include "relief/texture/image.h"
@@ -63,11 +62,6 @@ std::string errorAfter(const Change& change)
     return errorOf(file);
 }
 
-bool contains(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
-
 // The vector that is out of the front of a mesh's triangle.
 glm::vec3 frontOf(const Mesh& mesh, std::size_t triangle = 0)
 {
@@ -86,8 +80,7 @@ std::string png1x1(std::uint8_t r, std::uint8_t g, std::uint8_t b)
     const TemporaryFolder folder;
     const std::vector<std::uint8_t> rgba = {r, g, b, 255};
     REQUIRE(writePng((folder / "a.png").string(), 1, 1, rgba).has_value());
-    std::ifstream in(folder / "a.png", std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    return contents(folder / "a.png");
 }
 
 }  // namespace

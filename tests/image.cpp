@@ -18,6 +18,7 @@
 
 #include <doctest/doctest.h>
 
+#include "contents.h"
 #include "png16.h"
 #include "relief/file.h"
 #include "relief/texture/import.h"
@@ -28,12 +29,6 @@ using namespace relief;
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytesOf(const fs::path& path)
-{
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 // Pixels that no filter or palette can shorten much, alpha included.
 std::vector<std::uint8_t> noisyPixels(int count)
@@ -57,7 +52,6 @@ std::string tga2x2()
 
 std::string bmp2x2()
 {
-    const auto little = [](int value) { return std::string({static_cast<char>(value), 0, 0, 0}); };
     const std::string row0 = kPixelsBgr.substr(0, 6) + std::string(2, '\0');
     const std::string row1 = kPixelsBgr.substr(6, 6) + std::string(2, '\0');
     return "BM" + little(70) + little(0) + little(54) + little(40) + little(2) + little(2) +
@@ -92,11 +86,6 @@ std::string errorOf(const fs::path& path)
     return image.error().message;
 }
 
-bool contains(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
-
 Image8 read8(const fs::path& path)
 {
     const Expected<ImageFile> image = readImage(path);
@@ -117,7 +106,7 @@ TEST_CASE("image: a PNG comes back exactly, and the same pixels give the same by
         const std::vector<std::uint8_t> pixels = noisyPixels(width * height);
         REQUIRE(writePng(folder / "a.png", width, height, pixels).has_value());
         REQUIRE(writePng(folder / "b.png", width, height, pixels).has_value());
-        CHECK(bytesOf(folder / "a.png") == bytesOf(folder / "b.png"));
+        CHECK(contents(folder / "a.png") == contents(folder / "b.png"));
         const Image8 image = read8(folder / "a.png");
         CHECK(image.width == width);
         CHECK(image.height == height);
@@ -220,7 +209,7 @@ TEST_CASE("image: a file that is cut off anywhere is an error in every format")
     const TemporaryFolder folder;
     REQUIRE(writePng(folder / "whole.png", 9, 7, noisyPixels(63)).has_value());
     const std::vector<std::pair<std::string, std::string>> files = {
-        {"png", bytesOf(folder / "whole.png")},
+        {"png", contents(folder / "whole.png")},
         {"png", png16(3, 1, {1, 2, 3})},
         {"tga", tga2x2()},
         {"bmp", bmp2x2().substr(0, 68)},  // without the padding behind the last pixel, which carries nothing
@@ -238,7 +227,7 @@ TEST_CASE("image: a file that is cut off anywhere is an error in every format")
             CHECK(errorOf(folder.write("cut." + extension, bytes.substr(0, length))) != "");
         }
     }
-    CHECK(contains(errorOf(folder.write("half.png", bytesOf(folder / "whole.png").substr(0, 100))), "is truncated"));
+    CHECK(contains(errorOf(folder.write("half.png", contents(folder / "whole.png").substr(0, 100))), "is truncated"));
     CHECK(contains(errorOf(folder.write("half.tga", tga2x2().substr(0, 25))), "is truncated"));
 }
 
@@ -315,7 +304,7 @@ TEST_CASE("image: damaged compressed data")
 {
     const TemporaryFolder folder;
     REQUIRE(writePng(folder / "a.png", 9, 7, noisyPixels(63)).has_value());
-    std::string bytes = bytesOf(folder / "a.png");
+    std::string bytes = contents(folder / "a.png");
     for (std::size_t i = 41; i < 47; ++i) bytes[i] = '\xff';
     CHECK(contains(errorOf(folder.write("b.png", bytes)), "is damaged"));
 }
@@ -324,7 +313,7 @@ TEST_CASE("image: an unknown chunk of a PNG whose type has line ends or zeros in
 {
     const TemporaryFolder folder;
     REQUIRE(writePng(folder / "a.png", 9, 7, noisyPixels(63)).has_value());
-    const std::string bytes = bytesOf(folder / "a.png");
+    const std::string bytes = contents(folder / "a.png");
     for (const std::string& type : {std::string("\nA\nB"), std::string("A\nB\0", 4), std::string("\nA\0B", 4),
                                     std::string("\n\0AB", 4), std::string("\0\nAB", 4)}) {
         const std::string error =
@@ -339,7 +328,7 @@ TEST_CASE("image: an empty chunk of compressed data before the full one changes 
     const TemporaryFolder folder;
     const std::vector<std::uint8_t> pixels = noisyPixels(63);
     REQUIRE(writePng(folder / "a.png", 9, 7, pixels).has_value());
-    const std::string bytes = bytesOf(folder / "a.png");
+    const std::string bytes = contents(folder / "a.png");
     const Expected<ImageFile> image =
         readImage(folder.write("b.png", bytes.substr(0, 33) + chunk("IDAT", "") + bytes.substr(33)));
     REQUIRE(image.has_value());
@@ -384,7 +373,7 @@ TEST_CASE("image: no random damage crashes the reader")
 {
     const TemporaryFolder folder;
     REQUIRE(writePng(folder / "a.png", 9, 7, noisyPixels(63)).has_value());
-    const std::vector<std::string> files = {bytesOf(folder / "a.png"), tga2x2(), bmp2x2(), jpeg8x8(),
+    const std::vector<std::string> files = {contents(folder / "a.png"), tga2x2(), bmp2x2(), jpeg8x8(),
                                             hdr(std::string(12, '\x40'), 3)};
     std::uint32_t state = 7;
     const auto next = [&](std::size_t limit) {
@@ -446,7 +435,7 @@ TEST_CASE("image: a full disk is an error, and the old file stays as it was")
     std::signal(SIGXFSZ, oldHandler);
     REQUIRE(!written.has_value());
     CHECK(contains(written.error().message, "cannot write (File too large)"));
-    CHECK(bytesOf(path) == "old");
+    CHECK(contents(path) == "old");
     CHECK(folder.fileCount() == 1);
 }
 
@@ -480,7 +469,7 @@ TEST_CASE("image: PFM is little-endian, bottom row first")
     const std::string header = "PF\n1 2\n-1.0\n";
     const std::string bottom = std::string("\0\0\0\x80\0\0\0\x3f\0\0\x80\x40", 12);
     const std::string top = std::string("\0\0\x80\x3f\0\0\0\x40\0\0\x40\x40", 12);
-    CHECK(bytesOf(folder / "a.pfm") == header + bottom + top);
+    CHECK(contents(folder / "a.pfm") == header + bottom + top);
 }
 
 TEST_CASE("image: what is written as HDR comes back within 1/255 of a pixel's largest channel")

@@ -1,7 +1,5 @@
 // Imports of files: one object for one import, whoever asks, and one line for everything that is wrong.
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
@@ -10,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include "contents.h"
 #include "import_fixture.h"
 #include "temporary_folder.h"
 
@@ -78,8 +77,7 @@ TEST_CASE("import: what is wrong is one line that names the file, the field and 
 
     const TemporaryFolder folder;
     const std::string missing = (folder / "none.png").string();
-    std::ifstream in(kHeights, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const std::string bytes = contents(kHeights);
     const std::string half = folder.write("half.png", bytes.substr(0, bytes.size() / 2)).string();
     for (const std::string& path : {missing, half, folder.path.string()}) {
         const auto texture = importTexture(path, normalMap());

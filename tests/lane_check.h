@@ -12,10 +12,10 @@
 
 #include "relief/lanes/float.h"
 
+#include "numbers.h"
+
 namespace lane_check {
 
-inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
-inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float kSmallest = std::numeric_limits<float>::denorm_min();
 inline constexpr float kSmallestNormal = std::numeric_limits<float>::min();
 inline constexpr float kLargest = std::numeric_limits<float>::max();

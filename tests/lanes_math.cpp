@@ -475,7 +475,7 @@ TEST_CASE("atan2: the absolute error all around the circle is below 2.1e-7, for 
 
 TEST_CASE("atan2: axes and diagonals give the nearest floats, for lengths of every size and for infinities")
 {
-    constexpr auto kPi = static_cast<float>(std::numbers::pi);
+    constexpr auto pi = static_cast<float>(std::numbers::pi);
     constexpr auto kHalfPi = static_cast<float>(std::numbers::pi / 2.0);
     constexpr auto kQuarterPi = static_cast<float>(std::numbers::pi / 4.0);
     constexpr auto kThreeQuarterPi = static_cast<float>(std::numbers::pi * 0.75);
@@ -485,7 +485,7 @@ TEST_CASE("atan2: axes and diagonals give the nearest floats, for lengths of eve
             CHECK(atan2(a, zero) == kHalfPi);
             CHECK(atan2(-a, zero) == -kHalfPi);
             CHECK(same(atan2(zero, a), zero));
-            CHECK(atan2(zero, -a) == std::copysign(kPi, zero));
+            CHECK(atan2(zero, -a) == std::copysign(pi, zero));
         }
         CHECK(atan2(a, a) == kQuarterPi);
         CHECK(atan2(-a, a) == -kQuarterPi);
@@ -494,11 +494,11 @@ TEST_CASE("atan2: axes and diagonals give the nearest floats, for lengths of eve
     }
     CHECK(same(atan2(0.0f, 0.0f), 0.0f));
     CHECK(same(atan2(-0.0f, 0.0f), -0.0f));
-    CHECK(atan2(0.0f, -0.0f) == kPi);
-    CHECK(atan2(-0.0f, -0.0f) == -kPi);
+    CHECK(atan2(0.0f, -0.0f) == pi);
+    CHECK(atan2(-0.0f, -0.0f) == -pi);
     CHECK(atan2(kInfinity, 1.0f) == kHalfPi);
     CHECK(atan2(1.0f, kInfinity) == 0.0f);
-    CHECK(atan2(-1.0f, -kInfinity) == -kPi);
+    CHECK(atan2(-1.0f, -kInfinity) == -pi);
 }
 
 TEST_CASE("atan2: of NaN is NaN")
@@ -617,10 +617,10 @@ TEST_CASE("asin, acos and atan: relative errors below 1.9e-7, 2.2e-7 and 1.3e-7"
     }
     for (const double end : {2.0, 1e20})
         CHECK(relativeError(-end, end, ofAtan, [](double x) { return std::atan(x); }) < 1.3e-7);
-    constexpr auto kPi = static_cast<float>(std::numbers::pi);
+    constexpr auto pi = static_cast<float>(std::numbers::pi);
     constexpr auto kHalfPi = static_cast<float>(std::numbers::pi / 2.0);
     CHECK(acos(Float(1.0f))[0] == 0.0f);
-    CHECK(acos(Float(-1.0f))[0] == kPi);
+    CHECK(acos(Float(-1.0f))[0] == pi);
     CHECK(asin(Float(-1.0f))[0] == -kHalfPi);
     CHECK(same(asin(Float(-0.0f))[0], -0.0f));
     CHECK(atan(Float(kInfinity))[0] == kHalfPi);

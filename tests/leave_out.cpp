@@ -1,10 +1,10 @@
 // What a draw does not need is not in its code: each feature off gives the bits of the feature on with nothing to do,
 // in every pair of features, and counters show that it was left out (stability cases S-1101 to S-1107).
-#include <limits>
 #include <memory>
 #include <utility>
 
 #include "common/render.h"
+#include "numbers.h"
 #include "pipeline_fixture.h"
 #include "relief/leave_out.h"
 #include "relief/mesh/primitives.h"
@@ -15,8 +15,6 @@ using namespace fixture;
 using namespace relief::samples;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // Two rows of triangles that do not overlap, all facing the viewer, inside the view and in front of the cleared depth:
 // none of the features has anything to do. (In FromPixels' coordinates; front is clockwise.)

@@ -4,20 +4,17 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "numbers.h"
 #include "relief/texture/sampler.h"
 #include "sampler_fixture.h"
 
 using namespace sampler_fixture;
 
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 float isotropic(float xu, float xv, float yu, float yv)
 {

@@ -1,16 +1,13 @@
 // The lighting model in both forms: known values, energy, and extreme inputs (stability cases S-802 to S-812).
 #include "relief/shading/lighting.h"
 
-#include <limits>
-
+#include "numbers.h"
 #include "shading_fixture.h"
 
 using namespace fixture;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 const float3 kUp = {0.0f, 0.0f, 1.0f}, kWhite = {1.0f, 1.0f, 1.0f}, kNothing = {0.0f, 0.0f, 0.0f};
 
 enum class Form

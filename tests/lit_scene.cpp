@@ -4,15 +4,15 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "common/render.h"
+#include "contents.h"
 #include "gltf_file.h"
+#include "numbers.h"
 #include "relief/check/hash.h"
 #include "relief/pipeline/frame.h"
 #include "relief/pipeline/save.h"
@@ -67,8 +67,7 @@ std::string png2x2(const std::vector<std::uint8_t>& rgba)
 {
     const TemporaryFolder folder;
     REQUIRE(writePng((folder / "a.png").string(), 2, 2, rgba).has_value());
-    std::ifstream in(folder / "a.png", std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    return contents(folder / "a.png");
 }
 
 GltfFile squareWithPicture(const std::vector<std::uint8_t>& rgba)
@@ -371,8 +370,6 @@ json at(double x, double y, double z)
 {
     return {{"translation", {x, y, z}}};
 }
-
-constexpr double kPi = 3.14159265358979323846;
 
 // The same square under a sun of this strength, straight from the front.
 glm::vec4 underSun(float strength)

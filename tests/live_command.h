@@ -3,12 +3,11 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include <sys/wait.h>
 
+#include "contents.h"
 #include "temporary_folder.h"
 
 struct Outcome
@@ -16,14 +15,6 @@ struct Outcome
     int code;
     std::string out, err;
 };
-
-inline std::string contents(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 // `environment`: variables, as in NAME=VALUE. What it prints stays in out.txt and err.txt.
 inline Outcome runCommand(const TemporaryFolder& folder, const std::string& arguments,

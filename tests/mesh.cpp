@@ -13,6 +13,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "contents.h"
 #include "relief/mesh/primitives.h"
 #include "relief/mesh/triangulate.h"
 
@@ -24,11 +25,6 @@ std::string errorOf(const Mesh& mesh)
 {
     const Expected<void> valid = validate(mesh);
     return valid ? "" : valid.error().message;
-}
-
-bool contains(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
 }
 
 // A polygon in the plane z = 0 that turns counter-clockwise around +z, and its area.

@@ -4,14 +4,13 @@
 #include <bit>
 #include <limits>
 
+#include "numbers.h"
 #include "shading_fixture.h"
 
 using namespace fixture;
 
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 const float3 kFlat = {0.0f, 0.0f, 1.0f};
 
 }  // namespace

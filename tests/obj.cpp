@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "contents.h"
 #include "temporary_folder.h"
 
 using namespace relief;
@@ -35,11 +36,6 @@ std::string errorOf(const std::string& text)
     CHECK(message.find('\n') == std::string::npos);
     CHECK(message.find(path.string() + ": ") == 0);
     return message.substr(path.string().size() + 2);
-}
-
-bool contains(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
 }
 
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";

@@ -2,8 +2,7 @@
 // direction (stability cases S-107 to S-111, S-409).
 #include "relief/shading/object_transform.h"
 
-#include <limits>
-
+#include "numbers.h"
 #include "pipeline_fixture.h"
 #include "relief/mesh/primitives.h"
 #include "shading_fixture.h"
@@ -12,7 +11,6 @@ using namespace fixture;
 
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 const glm::mat4 kIdentity(1.0f);
 
 glm::mat4 scale(float x, float y, float z)

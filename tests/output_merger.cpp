@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "numbers.h"
 #include "pipeline_fixture.h"
 
 using namespace fixture;
 
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kLargest = std::numeric_limits<float>::max();
 
 bool passes(Compare compare, float z, float stored)

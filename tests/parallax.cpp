@@ -2,18 +2,14 @@
 // heights that break the obvious form.
 #include "relief/shading/parallax.h"
 
-#include <limits>
-
 #include "common/render.h"
+#include "numbers.h"
 #include "shading_fixture.h"
 
 using namespace fixture;
 using namespace relief::samples;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 enum class Method
 {

@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include "contents.h"
 #include "temporary_folder.h"
 
 using namespace relief;
@@ -32,11 +33,6 @@ std::string errorOf(const TemporaryFolder& folder, const std::string& bytes)
     REQUIRE(!image.has_value());
     CHECK(image.error().message.find('\n') == std::string::npos);
     return image.error().message;
-}
-
-bool contains(const std::string& text, const std::string& words)
-{
-    return text.find(words) != std::string::npos;
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 
 #include "common/render.h"
 #include "lane_check.h"
+#include "numbers.h"
 #include "relief/hlsl/intrinsics.h"
 #include "relief/mesh/primitives.h"
 #include "stability.h"
@@ -20,8 +20,6 @@ namespace {
 using namespace relief;
 using namespace relief::samples;
 using stability::measured;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // What a drawing gives, as floats.
 struct Picture

@@ -5,12 +5,7 @@
 #include <string>
 #include <vector>
 
-inline std::string bigEndian(std::uint32_t value)
-{
-    std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-    return bytes;
-}
+#include "bytes.h"
 
 inline std::uint32_t crc(const std::string& bytes)
 {

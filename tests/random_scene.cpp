@@ -5,10 +5,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <memory>
 #include <vector>
 
+#include "numbers.h"
 #include "relief/pipeline/frame.h"
 #include "relief/shading/cotangent_frame.h"
 #include "relief/shading/lights.h"
@@ -47,8 +47,6 @@ namespace {
 
 // --- numbers ---
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kExtremes[] = {0.0f,   -0.0f,           1.0f,        -1.0f,     1e-45f,         -1e-45f,
                                1e-40f, 1.17549435e-38f, 1e-30f,      -1e-30f,   1e-20f,         1e-7f,
                                1e3f,   -1e6f,           16777217.0f, 1e10f,     1e19f,          -1e20f,

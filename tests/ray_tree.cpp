@@ -5,20 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "numbers.h"
 #include "relief/mesh/primitives.h"
 
 using namespace relief;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 glm::dvec3 unit(glm::dvec3 v)
 {

@@ -2,16 +2,12 @@
 // left.
 #include "relief/pipeline/setup.h"
 
-#include <limits>
-
+#include "numbers.h"
 #include "pipeline_fixture.h"
 
 using namespace fixture;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 std::int64_t doubledArea(const Corners& c)  // positive: clockwise, y down
 {

@@ -1,9 +1,8 @@
 // Shadow filters: the pictures of stage 5.06, means of comparisons, and light that grazes.
 #include "relief/shading/shadows.h"
 
-#include <limits>
-
 #include "common/render.h"
+#include "numbers.h"
 #include "pipeline_fixture.h"
 #include "relief/pipeline/target_texture.h"
 #include "relief/shading/camera.h"
@@ -13,9 +12,6 @@ using namespace fixture;
 using namespace relief::samples;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct PositionOnly
 {

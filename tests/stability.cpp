@@ -7,16 +7,20 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
-#include <sstream>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "common/pattern.h"
+#include "contents.h"
+
 namespace stability {
 
 namespace {
+
+using relief::samples::Match;
+using relief::samples::Pattern;
 
 constexpr const char* kTested = nullptr;
 
@@ -344,9 +348,9 @@ std::span<const Case> cases()
 std::vector<std::string> idsIn(const std::string& testName)
 {
     std::vector<std::string> ids;
-    const std::regex id(R"(\bS-[0-9]+)");
-    for (auto it = std::sregex_iterator(testName.begin(), testName.end(), id); it != std::sregex_iterator(); ++it) {
-        ids.push_back(it->str());
+    const Pattern id(R"(\bS-[0-9]+)");
+    for (const Match& m : id.find(testName)) {
+        ids.push_back(m[0]);
     }
     return ids;
 }
@@ -384,15 +388,12 @@ void detail::check(const char* what, double value, double bound, const char* fil
 TEST_CASE("stability: every case of the table has a test or says what does not exist, and tests name no other")
 {
     std::map<std::string, int> testsOf;
-    const std::regex test(R"re(TEST_CASE\(\s*((?:"[^"]*"\s*)+)\))re");
+    const Pattern test(R"re(TEST_CASE\(\s*((?:"[^"]*"\s*)+)\))re");
     for (const auto& entry : std::filesystem::directory_iterator(RELIEF_SOURCE_FOLDER "/tests")) {
         if (entry.path().extension() != ".cpp") continue;
-        std::ifstream file(entry.path());
-        std::stringstream text;
-        text << file.rdbuf();
-        const std::string source = text.str();
-        for (auto it = std::sregex_iterator(source.begin(), source.end(), test); it != std::sregex_iterator(); ++it) {
-            for (const std::string& id : stability::idsIn((*it)[1].str())) ++testsOf[id];
+        const std::string source = contents(entry.path());
+        for (const Match& m : test.find(source)) {
+            for (const std::string& id : stability::idsIn(m[1])) ++testsOf[id];
         }
     }
     std::set<std::string> known;

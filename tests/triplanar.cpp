@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "common/triplanar_methods.h"
+#include "numbers.h"
 #include "shading_fixture.h"
 
 using namespace fixture;
@@ -16,7 +16,6 @@ using namespace relief::samples::triplanar;
 
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 // Directions all over the sphere, the axes, the corners and the diagonals among them.

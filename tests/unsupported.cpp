@@ -7,19 +7,13 @@
 
 #include <doctest/doctest.h>
 
+#include "bytes.h"
 #include "relief/texture/image.h"
 #include "temporary_folder.h"
 
 using namespace relief;
 
 namespace {
-
-std::string little(std::uint32_t value, int bytes = 4)
-{
-    std::string text;
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> 8 * i & 0xff);
-    return text;
-}
 
 std::string bmp(std::uint32_t header, std::uint32_t bits, std::uint32_t compression, const std::string& rest)
 {

@@ -1,17 +1,13 @@
 // The vertex stage: snapping, codes, screen positions, and what a vertex program gets to read.
 #include "relief/pipeline/vertex.h"
 
-#include <limits>
-
+#include "numbers.h"
 #include "pipeline_fixture.h"
 #include "relief/pipeline/viewport_transform.h"
 
 using namespace fixture;
 
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 struct AllStreams
 {

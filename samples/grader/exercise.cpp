@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <regex>
 #include <sstream>
 
+#include "common/pattern.h"
 #include "relief/file.h"
 #include "relief/path.h"
 
@@ -46,15 +46,14 @@ struct Reader
 // "# 1.08a Along v", then "Stage 1.08 · derive".
 void Reader::head(const std::string& line)
 {
-    static const std::regex title("# (\\d\\.\\d\\d[a-z]) (.+)");
-    static const std::regex about("Stage (\\d\\.\\d\\d) · (fix|derive|predict|open)");
-    std::smatch m;
-    if (std::regex_match(line, m, title)) {
-        exercise.id = m[1];
-        exercise.title = m[2];
-    } else if (std::regex_match(line, m, about)) {
-        exercise.stage = m[1];
-        exercise.kind = m[2];
+    static const Pattern title("# (\\d\\.\\d\\d[a-z]) (.+)");
+    static const Pattern about("Stage (\\d\\.\\d\\d) · (fix|derive|predict|open)");
+    if (const auto named = title.match(line)) {
+        exercise.id = (*named)[1];
+        exercise.title = (*named)[2];
+    } else if (const auto its = about.match(line)) {
+        exercise.stage = (*its)[1];
+        exercise.kind = (*its)[2];
     } else {
         exercise.task += line + "\n";
     }
@@ -63,8 +62,7 @@ void Reader::head(const std::string& line)
 // "- `sign` Your v slope has the wrong sign. See 1.08.", then lines such as "  - `v1 - v2` -> `v2 - v1`".
 void Reader::takeMistake(const std::string& line, std::vector<Mistake>& list)
 {
-    static const std::regex head("- `([a-z0-9-]+)` (.+?)\\.?( See \\d\\.\\d\\d(?: and \\d\\.\\d\\d)?\\.)?");
-    std::smatch m;
+    static const Pattern head("- `([a-z0-9-]+)` (.+?)\\.?( See \\d\\.\\d\\d(?: and \\d\\.\\d\\d)?\\.)?");
     if (line.starts_with("  - `") && !list.empty()) {
         const std::size_t arrow = line.find("` -> `");
         if (arrow == std::string::npos || !line.ends_with("`")) {
@@ -73,8 +71,8 @@ void Reader::takeMistake(const std::string& line, std::vector<Mistake>& list)
         }
         list.back().changes.push_back(
             {line.substr(5, arrow - 5), line.substr(arrow + 6, line.size() - 1 - (arrow + 6))});
-    } else if (std::regex_match(line, m, head)) {
-        list.push_back({m[1], m[2], m[3].matched ? m[3].str().substr(1) : "", {}});
+    } else if (const auto m = head.match(line)) {
+        list.push_back({(*m)[1], (*m)[2], m->has(3) ? (*m)[3].substr(1) : "", {}});
     } else if (!line.empty()) {
         problem = "'" + line + "': write - `name` and a sentence";
     }
@@ -83,10 +81,9 @@ void Reader::takeMistake(const std::string& line, std::vector<Mistake>& list)
 // "- `mean` <= 0.8 start: A wet surface is darker."
 void Reader::takeCondition(const std::string& line)
 {
-    static const std::regex condition("- `([a-z]+)` (<=|>=) ([0-9.]+)( start)?: (.+?)\\.?");
-    std::smatch m;
-    if (std::regex_match(line, m, condition)) {
-        exercise.conditions.push_back({m[1], m[2], std::stod(m[3]), m[4].matched, m[5]});
+    static const Pattern condition("- `([a-z]+)` (<=|>=) ([0-9.]+)( start)?: (.+?)\\.?");
+    if (const auto m = condition.match(line)) {
+        exercise.conditions.push_back({(*m)[1], (*m)[2], std::stod((*m)[3]), m->has(4), (*m)[5]});
     } else if (!line.empty()) {
         problem = "'" + line + "': write - `measure` <= number: and a sentence";
     }
@@ -94,14 +91,13 @@ void Reader::takeCondition(const std::string& line)
 
 void Reader::take(const std::string& line)
 {
-    static const std::regex hint("\\d\\. (.+)");
-    std::smatch m;
+    static const Pattern hint("\\d\\. (.+)");
     if (line.starts_with("## ")) {
         section = line.substr(3);
     } else if (section.empty()) {
         head(line);
     } else if (section == "Hints") {
-        if (std::regex_match(line, m, hint)) exercise.hints.push_back(m[1]);
+        if (const auto m = hint.match(line)) exercise.hints.push_back((*m)[1]);
     } else if (section == "Start") {
         if (line.starts_with("```")) {
             inCode = !inCode;
@@ -329,11 +325,11 @@ std::string learnersText(const Exercise& exercise, const std::string& path)
 
 std::string exerciseIdOf(const std::string& path, const std::string& text)
 {
-    static const std::regex head("// Exercise (\\d\\.\\d\\d[a-z])\\b"), name("(?:.*_)?(\\d\\.\\d\\d[a-z])(_.*)?");
-    std::smatch m;
-    const std::string first = text.substr(0, text.find('\n')), stem = utf8Of(pathOf(path).stem());
-    if (std::regex_search(first, m, head)) return m[1];
-    return std::regex_match(stem, m, name) ? m[1].str() : "";
+    static const Pattern head("// Exercise (\\d\\.\\d\\d[a-z])\\b"), name("(?:.*_)?(\\d\\.\\d\\d[a-z])(_.*)?");
+    const std::vector<Match> heads = head.find(text.substr(0, text.find('\n')));
+    if (!heads.empty()) return heads[0][1];
+    const auto named = name.match(utf8Of(pathOf(path).stem()));
+    return named ? (*named)[1] : "";
 }
 
 }  // namespace relief::samples::grader

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <regex>
 
+#include "common/pattern.h"
 #include "grader/commands.h"
 #include "live/toolchain.h"
 #include "relief/file.h"
@@ -34,11 +34,11 @@ Expected<std::vector<Graded>> filesIn(const std::string& folder)
         Graded one;
         const fs::path relative = it->path().lexically_relative(root);
         one.file = utf8Of(relative);
-        static const std::regex named("(.+)_\\d\\.\\d\\d[a-z](_.*)?");
-        std::smatch m;
+        static const Pattern named("(.+)_\\d\\.\\d\\d[a-z](_.*)?");
         const std::string stem = utf8Of(relative.stem());
         const bool isAlone = relative.begin() == --relative.end();
-        one.learner = !isAlone ? utf8Of(*relative.begin()) : std::regex_match(stem, m, named) ? m[1].str() : stem;
+        const auto name = named.match(stem);
+        one.learner = !isAlone ? utf8Of(*relative.begin()) : name ? (*name)[1] : stem;
         all.push_back(std::move(one));
     }
     if (error) return fail(folder + ": cannot read the folder (" + error.message() + "); name one with files in it");
@@ -51,7 +51,7 @@ std::string gapText(const std::string& text)
 {
     std::string gap;
     for (const Span& span : gapsOf(text)) gap += text.substr(span.begin, span.end - span.begin);
-    gap = std::regex_replace(gap, std::regex("//[^\n]*"), "");
+    gap = Pattern("//[^\n]*").replace(gap, "");
     gap.erase(
         std::remove_if(gap.begin(), gap.end(), [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }),
         gap.end());

@@ -1,7 +1,8 @@
 #include "grader/mutate.h"
 
-#include <regex>
 #include <set>
+
+#include "common/pattern.h"
 
 namespace relief::samples::grader {
 
@@ -14,18 +15,16 @@ struct Mutator
     std::size_t offset;  // of the gap in the text
     std::vector<Mutation>& all;
 
-    void add(const char* kind, std::ptrdiff_t at, std::ptrdiff_t size, const std::string& to)
+    void add(const char* kind, std::size_t at, std::size_t size, const std::string& to)
     {
-        const std::size_t begin = offset + static_cast<std::size_t>(at);
-        if (gap.substr(static_cast<std::size_t>(at), static_cast<std::size_t>(size)) == to) return;
-        all.push_back({kind, {begin, begin + static_cast<std::size_t>(size)}, to});
+        if (gap.substr(at, size) == to) return;
+        all.push_back({kind, {offset + at, offset + at + size}, to});
     }
 
     template <class Function>
     void each(const char* pattern, const Function& function)
     {
-        const std::regex regex(pattern);
-        for (std::sregex_iterator m(gap.begin(), gap.end(), regex), end; m != end; ++m) function(*m);
+        for (const Match& m : Pattern(pattern).find(gap)) function(m);
     }
 
     void operators();
@@ -39,40 +38,38 @@ struct Mutator
 void Mutator::operators()
 {
     static const std::pair<char, char> kOthers[] = {{'+', '-'}, {'-', '+'}, {'*', '/'}, {'/', '*'}, {'<', '>'}};
-    each(" ([-+*/<]=?) ", [&](const std::smatch& m) {
+    each(" ([-+*/<]=?) ", [&](const Match& m) {
         for (const auto& [is, other] : kOthers) {
             std::string to = m[1];
             if (to[0] != is) continue;
             to[0] = other;
-            add("operator", m.position(1), m.length(1), to);
+            add("operator", m.position(1), m[1].size(), to);
         }
     });
 }
 
 void Mutator::numbers()
 {
-    each("\\b\\d+(\\.\\d+f)?\\b", [&](const std::smatch& m) {
-        if (m.position() > 0 &&
-            (std::isalnum(static_cast<unsigned char>(gap[static_cast<std::size_t>(m.position() - 1)])) != 0))
-            return;
-        for (const char* to : {"0.0f", "1.0f", "0.5f", "2.0f"}) add("number", m.position(), m.length(), to);
-        add("number", m.position(), m.length(), "-" + m.str());
+    each("\\b\\d+(\\.\\d+f)?\\b", [&](const Match& m) {
+        if (m.position() > 0 && (std::isalnum(static_cast<unsigned char>(gap[m.position() - 1])) != 0)) return;
+        for (const char* to : {"0.0f", "1.0f", "0.5f", "2.0f"}) add("number", m.position(), m[0].size(), to);
+        add("number", m.position(), m[0].size(), "-" + m[0]);
     });
 }
 
 void Mutator::swizzles()
 {
-    each("\\.([xyzw]{1,4})\\b", [&](const std::smatch& m) {
+    each("\\.([xyzw]{1,4})\\b", [&](const Match& m) {
         const std::string is = m[1];
         for (std::size_t i = 0; i + 1 < is.size(); ++i) {
             std::string to = is;
             std::swap(to[i], to[i + 1]);
-            add("swizzle", m.position(1), m.length(1), to);
+            add("swizzle", m.position(1), m[1].size(), to);
         }
         for (const char c : {'x', 'y', 'z'}) {
             std::string to = is;
             to.back() = c;
-            add("swizzle", m.position(1), m.length(1), to);
+            add("swizzle", m.position(1), m[1].size(), to);
         }
     });
 }
@@ -80,13 +77,12 @@ void Mutator::swizzles()
 void Mutator::calls()
 {
     each("\\b(normalize|saturate|abs|sqrt|transpose|ddx|ddy)\\(",
-         [&](const std::smatch& m) { add("call left out", m.position(1), m.length(1), ""); });
-    each("\\b\\w+\\(([^(),]+), ([^(),]+)\\)", [&](const std::smatch& m) {
-        add("arguments", m.position(1), m.length(1) + 2 + m.length(2), m[2].str() + ", " + m[1].str());
-    });
-    each("\\b(cross|dot|mul)\\(", [&](const std::smatch& m) {
+         [&](const Match& m) { add("call left out", m.position(1), m[1].size(), ""); });
+    each("\\b\\w+\\(([^(),]+), ([^(),]+)\\)",
+         [&](const Match& m) { add("arguments", m.position(1), m[1].size() + 2 + m[2].size(), m[2] + ", " + m[1]); });
+    each("\\b(cross|dot|mul)\\(", [&](const Match& m) {
         for (const char* to : {"cross", "dot", "mul", "reflect", "max", "min"})
-            add("function", m.position(1), m.length(1), to);
+            add("function", m.position(1), m[1].size(), to);
     });
 }
 
@@ -96,21 +92,21 @@ void Mutator::names()
     const char* const pattern = "\\b[a-z]\\w*(?:\\.[a-z]\\w{2,})?\\b(?!\\(|::)";
     static const std::set<std::string> kWords = {"const",    "float2", "float3",    "float4",
                                                  "float3x3", "if",     "constexpr", "f"};
-    each(pattern, [&](const std::smatch& m) {
-        if (kWords.count(m.str()) == 0) names.insert(m.str());
+    each(pattern, [&](const Match& m) {
+        if (kWords.count(m[0]) == 0) names.insert(m[0]);
     });
-    each(pattern, [&](const std::smatch& m) {
-        if (kWords.count(m.str()) != 0) return;
-        for (const std::string& name : names) add("name", m.position(), m.length(), name);
+    each(pattern, [&](const Match& m) {
+        if (kWords.count(m[0]) != 0) return;
+        for (const std::string& name : names) add("name", m.position(), m[0].size(), name);
         add("minus", m.position(), 0, "-");
     });
 }
 
 void Mutator::statements()
 {
-    each("( *)([^\\n;]*;)\\n", [&](const std::smatch& m) {
-        const bool isDeclaration = m[2].str().starts_with("const ");
-        if (!isDeclaration) add("statement left out", m.position(2), m.length(2), "");
+    each("( *)([^\\n;]*;)\\n", [&](const Match& m) {
+        const bool isDeclaration = m[2].starts_with("const ");
+        if (!isDeclaration) add("statement left out", m.position(2), m[2].size(), "");
     });
 }
 

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -16,6 +15,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "common/pattern.h"
 
 extern char** environ;
 
@@ -124,10 +125,9 @@ Division divided(const std::vector<std::uint64_t>& programs)
 
 std::string stageFunction(const std::string& text)
 {
-    static const std::regex pattern(R"((?:^|\n)(?:relief::samples::)?Stage\s+([A-Za-z_]\w*)\s*\(\s*\))");
-    std::string name;
-    for (std::sregex_iterator m(text.begin(), text.end(), pattern), end; m != end; ++m) name = (*m)[1];
-    return name;
+    static const Pattern pattern(R"((?:^|\n)(?:relief::samples::)?Stage\s+([A-Za-z_]\w*)\s*\(\s*\))");
+    const std::vector<Match> all = pattern.find(text);
+    return all.empty() ? "" : all.back()[1];
 }
 
 // --- the compilers ---

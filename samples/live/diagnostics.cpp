@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <regex>
 #include <sstream>
+
+#include "common/pattern.h"
 
 namespace relief::samples::live {
 
@@ -21,55 +22,54 @@ struct Line
 // "FILE:LINE:COLUMN: error: MESSAGE", or what g++ puts before an error, "FILE:LINE:COLUMN:   required from here".
 std::optional<Line> parseLine(const std::string& text)
 {
-    static const std::regex message(R"((.+?):(\d+):(?:(\d+):)? +(?:fatal )?(error|warning|note): (.*))");
-    static const std::regex context(R"((.+?):(\d+):(?:(\d+):)? +(?:recursively )?(required) (?:from|by) .*)");
-    std::smatch m;
-    if (!std::regex_match(text, m, message) && !std::regex_match(text, m, context)) return std::nullopt;
-    Line line{m[1], std::stoi(m[2]), m[3].matched ? std::stoi(m[3]) : 0, m[4], {}};
-    if (m.size() > 5) line.message = m[5];
-    return line;
+    static const Pattern message(R"((.+?):(\d+):(?:(\d+):)? +(?:fatal )?(error|warning|note): (.*))");
+    static const Pattern context(R"((.+?):(\d+):(?:(\d+):)? +(?:recursively )?(required) (?:from|by) .*)");
+    std::optional<Match> m = message.match(text);
+    if (!m) m = context.match(text);
+    if (!m) return std::nullopt;
+    return Line{(*m)[1], std::stoi((*m)[2]), m->has(3) ? std::stoi((*m)[3]) : 0, (*m)[4], m->has(5) ? (*m)[5] : ""};
 }
 
 // Types as they are written in a stage, and the compiler's turns of phrase as a person's.
 std::string inPlainWords(std::string text)
 {
-    static const std::pair<std::regex, const char*> rules[] = {
-        {std::regex("[\u2018\u2019]"), "'"},
-        {std::regex("&apos;"), "'"},
-        {std::regex("\\(anonymous namespace\\)::|\\{anonymous\\}::|\\(anonymous\\)::"), ""},
-        {std::regex("relief::samples::|relief::lanes\\d+::|relief::detail::|relief::|lanes\\d+::"), ""},
-        {std::regex("LaneVector<Float, (\\d)>"), "float$1"},
-        {std::regex("LaneVector<Int, (\\d)>"), "int$1"},
-        {std::regex("LaneMatrix<Float, (\\d), (\\d)>"), "float$1x$2"},
-        {std::regex(" ?\\{aka [^}]*\\}| \\(aka '[^']*'\\)"), ""},
-        {std::regex("^static assertion failed: |^static_assert failed due to requirement '.*' \"|"
-                    "^static_assert failed \"|^static assertion failed due to requirement '.*?': "),
+    static const std::pair<Pattern, const char*> rules[] = {
+        {Pattern("[\u2018\u2019]"), "'"},
+        {Pattern("&apos;"), "'"},
+        {Pattern("\\(anonymous namespace\\)::|\\{anonymous\\}::|\\(anonymous\\)::"), ""},
+        {Pattern("relief::samples::|relief::lanes\\d+::|relief::detail::|relief::|lanes\\d+::"), ""},
+        {Pattern("LaneVector<Float, (\\d)>"), "float$1"},
+        {Pattern("LaneVector<Int, (\\d)>"), "int$1"},
+        {Pattern("LaneMatrix<Float, (\\d), (\\d)>"), "float$1x$2"},
+        {Pattern(" ?\\{aka [^}]*\\}| \\(aka '[^']*'\\)"), ""},
+        {Pattern("^static assertion failed: |^static_assert failed due to requirement '.*' \"|"
+                 "^static_assert failed \"|^static assertion failed due to requirement '.*?': "),
          ""},
-        {std::regex("^'([^']+)' was not declared in this scope; did you mean '([^']+)'\\?"),
+        {Pattern("^'([^']+)' was not declared in this scope; did you mean '([^']+)'\\?"),
          "'$1' is not declared here; did you mean '$2'?"},
-        {std::regex("^use of undeclared identifier '([^']+)'; did you mean '([^']+)'\\?"),
+        {Pattern("^use of undeclared identifier '([^']+)'; did you mean '([^']+)'\\?"),
          "'$1' is not declared here; did you mean '$2'?"},
-        {std::regex("^'([^']+)' was not declared in this scope"), "'$1' is not declared here"},
-        {std::regex("^use of undeclared identifier '([^']+)'"), "'$1' is not declared here"},
-        {std::regex("^expected ';' before .*|^expected ';' (after|at) .*"), "a ';' is missing before this"},
-        {std::regex("^expected (primary-)?expression( before '(.*)' token)?"),
+        {Pattern("^'([^']+)' was not declared in this scope"), "'$1' is not declared here"},
+        {Pattern("^use of undeclared identifier '([^']+)'"), "'$1' is not declared here"},
+        {Pattern("^expected ';' before .*|^expected ';' (after|at) .*"), "a ';' is missing before this"},
+        {Pattern("^expected (primary-)?expression( before '(.*)' token)?"),
          "a value is missing here, before what follows"},
-        {std::regex("^no match for '(operator)?([^']+)' \\(operand types are '([^']+)' and '([^']+)'\\)"),
+        {Pattern("^no match for '(operator)?([^']+)' \\(operand types are '([^']+)' and '([^']+)'\\)"),
          "there is no $2 between a $3 and a $4"},
-        {std::regex("^invalid operands to binary expression \\('([^']+)' and '([^']+)'\\)"),
+        {Pattern("^invalid operands to binary expression \\('([^']+)' and '([^']+)'\\)"),
          "there is no such operator between a $1 and a $2"},
-        {std::regex("^could not convert '([^']+)' from '([^']+)' to '([^']+)'"), "'$1' is a $2, and a $3 is needed"},
-        {std::regex("^conversion from '([^']+)' to non-scalar type '([^']+)' requested"),
+        {Pattern("^could not convert '([^']+)' from '([^']+)' to '([^']+)'"), "'$1' is a $2, and a $3 is needed"},
+        {Pattern("^conversion from '([^']+)' to non-scalar type '([^']+)' requested"),
          "this is a $1, and a $2 is needed"},
-        {std::regex("^no viable conversion from '([^']+)' to '([^']+)'"), "this is a $1, and a $2 is needed"},
-        {std::regex("^no viable conversion from returned value of type '([^']+)' to function return type '([^']+)'"),
+        {Pattern("^no viable conversion from '([^']+)' to '([^']+)'"), "this is a $1, and a $2 is needed"},
+        {Pattern("^no viable conversion from returned value of type '([^']+)' to function return type '([^']+)'"),
          "this returns a $1, and a $2 is needed"},
-        {std::regex("^'(?:const )?(?:class |struct )?([^']+)' has no member named '([^']+)'"), "a $1 has no '$2'"},
-        {std::regex("^no member named '([^']+)' in '([^']+)'"), "a $2 has no '$1'"},
-        {std::regex("^no matching function for call to '([^']+)'"),
+        {Pattern("^'(?:const )?(?:class |struct )?([^']+)' has no member named '([^']+)'"), "a $1 has no '$2'"},
+        {Pattern("^no member named '([^']+)' in '([^']+)'"), "a $2 has no '$1'"},
+        {Pattern("^no matching function for call to '([^']+)'"),
          "there is no '$1' that takes these values: look at their number and their types"},
     };
-    for (const auto& [pattern, words] : rules) text = std::regex_replace(text, pattern, words);
+    for (const auto& [pattern, words] : rules) text = pattern.replace(text, words);
     return text;
 }
 
@@ -118,13 +118,12 @@ std::vector<Diagnostic> parseDiagnostics(const std::string& output, const std::s
         }
     }
     if (found.empty() && !output.empty()) {
-        static const std::regex stale("file '([^']+)' has been modified since the precompiled header");
-        std::smatch header;
-        const std::string message = std::regex_search(output, header, stale)
-                                        ? header[1].str() +
-                                              ": has changed since Relief was built; close this, and "
-                                              "start it by ./relief again, which builds what is needed"
-                                        : linesOf(output).back();
+        static const Pattern stale("file '([^']+)' has been modified since the precompiled header");
+        const std::vector<Match> header = stale.find(output);
+        const std::string message = !header.empty() ? header[0][1] +
+                                                          ": has changed since Relief was built; close this, and "
+                                                          "start it by ./relief again, which builds what is needed"
+                                                    : linesOf(output).back();
         found.push_back({.file = path, .message = message});
     }
     std::stable_sort(found.begin(), found.end(),

@@ -3,8 +3,8 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
-#include <regex>
 
+#include "common/pattern.h"
 #include "live/compile.h"
 #include "relief/file.h"
 
@@ -50,8 +50,7 @@ Expected<void> writeNewStage(const std::string& path, const std::string& from)
     if (function.empty()) return fail(source + ": has no function `Stage NAME()` at the beginning of a line");
     replaceAll(*text, " " + function + "()", " " + asFunction(file.stem().string()) + "()");
     if (from.empty()) replaceAll(*text, "@file@", path);
-    if (!from.empty())
-        *text = std::regex_replace(*text, std::regex(" +// new\n"), "\n");  // against the book's stage before
+    if (!from.empty()) *text = Pattern(" +// new\n").replace(*text, "\n");  // against the book's stage before
     if (!from.empty())
         text->insert(0, "// " + path + ", from " + from + ". `./relief view " + path +
                             "` shows it, and shows it again whenever this file is saved.\n//\n");

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -15,6 +14,8 @@
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
+
+#include "contents.h"
 
 class WebDriver
 {
@@ -99,9 +100,7 @@ private:
         std::ifstream(number) >> driver;
         for (int i = 0; i < 200 && port.empty(); ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
-            std::stringstream said;
-            said << std::ifstream(log).rdbuf();
-            const std::string words = said.str(), mark = "started successfully on port ";
+            const std::string words = contents(log), mark = "started successfully on port ";
             const std::size_t at = words.find(mark);
             if (at != std::string::npos && words.find('\n', at) != std::string::npos)
                 port = words.substr(at + mark.size(),
@@ -119,9 +118,7 @@ private:
                                     " -H 'Content-Type: application/json' --data '@" + request.string() + "' -o '" +
                                     answer.string() + "' http://127.0.0.1:" + port + path;
         if (std::system(command.c_str()) != 0) return Json();
-        std::stringstream said;
-        said << std::ifstream(answer).rdbuf();
-        const Json json = Json::parse(said.str(), nullptr, false);
+        const Json json = Json::parse(contents(answer), nullptr, false);
         return json.is_object() && json.contains("value") ? json["value"] : Json();
     }
 

@@ -34,10 +34,10 @@ bool takesAll()
     return std::getenv("RELIEF_FULL_TRIALS") != nullptr;
 }
 
-// On which faults are made: marble, bricks and domes where time is short.
+// On which faults are made: bricks and domes where time is short.
 std::vector<const SoundMap*> trials()
 {
-    if (!takesAll()) return {&maps()[0], &maps()[1], &maps()[6]};
+    if (!takesAll()) return {&maps()[1], &maps()[6]};
     std::vector<const SoundMap*> chosen;
     for (const SoundMap& map : maps()) chosen.push_back(&map);
     return chosen;

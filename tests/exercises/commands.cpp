@@ -5,7 +5,8 @@
 
 #include <doctest/doctest.h>
 
-#include "grader/exercise.h"
+#include "along_v.h"
+#include "contents.h"
 #include "live_command.h"
 
 namespace {
@@ -15,16 +16,6 @@ using namespace relief::samples::grader;
 
 constexpr const char* kFile = "exercises/1.08a_along_v.cpp";
 
-// The answer of 1.08a with other words in its gap.
-std::string answerWith(const std::string& from, const std::string& to)
-{
-    const Expected<std::vector<Exercise>> all = allExercises();
-    REQUIRE(all.has_value());
-    std::string text = findExercise(*all, "1.08a").value()->answer;
-    REQUIRE(text.find(from) != std::string::npos);
-    return text.replace(text.find(from), from.size(), to);
-}
-
 // What check-exercise says of such a file.
 Outcome check(const TemporaryFolder& folder, const std::string& from, const std::string& to)
 {
@@ -32,34 +23,29 @@ Outcome check(const TemporaryFolder& folder, const std::string& from, const std:
     return runCommand(folder, "check-exercise 1.08a.cpp");
 }
 
-bool has(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("exercises: a file is written once, and the list says what is begun and solved")
 {
     const TemporaryFolder folder;
-    CHECK(has(runCommand(folder, "exercise").out, "  1.08a  derive   Along v "));
+    CHECK(contains(runCommand(folder, "exercise").out, "  1.08a  derive   Along v "));
     const Outcome written = runCommand(folder, "exercise 1.08a");
     CHECK(written.code == 0);
     CHECK(written.out == std::string(kFile) + "\n");
     CHECK(folder.fileCount() == 3);  // the folder, and what the command printed
     const Outcome again = runCommand(folder, "exercise 1.08a");
     CHECK(again.code == 2);
-    CHECK(has(again.err, "is there already"));
-    CHECK(has(runCommand(folder, "exercise").out, "begun"));
+    CHECK(contains(again.err, "is there already"));
+    CHECK(contains(runCommand(folder, "exercise").out, "begun"));
     const Outcome asGiven = runCommand(folder, std::string("check-exercise ") + kFile);
     CHECK(asGiven.code == 1);
-    CHECK(has(asGiven.out, "as it was given"));
+    CHECK(contains(asGiven.out, "as it was given"));
     folder.write(kFile, answerWith("// your turn", "// your turn"));
     const Outcome solved = runCommand(folder, std::string("check-exercise ") + kFile);
     CHECK(solved.code == 0);
-    CHECK(has(solved.out, "Solved, bit for bit."));
-    CHECK(has(solved.out, "answer/README.md"));
-    CHECK(has(runCommand(folder, "exercise").out, "\n1 of "));
+    CHECK(contains(solved.out, "Solved, bit for bit."));
+    CHECK(contains(solved.out, "answer/README.md"));
+    CHECK(contains(runCommand(folder, "exercise").out, "\n1 of "));
     CHECK(contents(folder / "exercises/solved.txt") == "1.08a\n");
 }
 
@@ -72,17 +58,17 @@ TEST_CASE("exercises: what is wrong is said, and where to read")
         sign.out ==
         "Your v slope has the wrong sign: bumps are dents. Your picture is, bit for bit, what that gives. See 1.08.\n");
     const Outcome both = check(folder, "(v1 - v2) * bumpScale", "(v2 - v1)");
-    CHECK(has(both.out, "Two things: Your v slope has the wrong sign"));
-    CHECK(has(both.out, "not scaled by bumpScale"));
+    CHECK(contains(both.out, "Two things: Your v slope has the wrong sign"));
+    CHECK(contains(both.out, "not scaled by bumpScale"));
     const Outcome near = check(folder, "(v1 - v2) * bumpScale", "(v2 - v1) * bumpScale * 1.02f");
     CHECK(near.code == 1);
-    CHECK_MESSAGE(has(near.out, "wrong sign: bumps are dents. Your picture is nearest"), near.out);
+    CHECK_MESSAGE(contains(near.out, "wrong sign: bumps are dents. Your picture is nearest"), near.out);
     const Outcome order = check(folder, "(v1 - v2) * bumpScale", "v1 * bumpScale - v2 * bumpScale");
     CHECK(order.code == 0);
-    CHECK_MESSAGE(has(order.out, "Solved, to 1 code of 255"), order.out);
+    CHECK_MESSAGE(contains(order.out, "Solved, to 1 code of 255"), order.out);
     const Outcome unknown = check(folder, "(v1 - v2) * bumpScale", "sin(v1 * 40.0f)");
     CHECK(unknown.code == 1);
-    CHECK_MESSAGE(has(unknown.out, "none of the"), unknown.out);
+    CHECK_MESSAGE(contains(unknown.out, "none of the"), unknown.out);
 }
 
 TEST_CASE("exercises: what gives no picture is said in words")
@@ -90,15 +76,15 @@ TEST_CASE("exercises: what gives no picture is said in words")
     const TemporaryFolder folder;
     const Outcome typo = check(folder, "const Float v1", "const Float w1");
     CHECK(typo.code == 1);
-    CHECK(has(typo.out, "1.08a.cpp:"));
-    CHECK(has(typo.out, "'v1' is not declared here"));
-    CHECK(has(typo.out, "Not compiled"));
+    CHECK(contains(typo.out, "1.08a.cpp:"));
+    CHECK(contains(typo.out, "'v1' is not declared here"));
+    CHECK(contains(typo.out, "Not compiled"));
     const Outcome wrongStruct = check(folder, "    SV_POSITION position;\n", "    float4 position;\n");
     CHECK(wrongStruct.code == 1);
-    CHECK_MESSAGE(has(wrongStruct.out, "SV_POSITION"), wrongStruct.out);
+    CHECK_MESSAGE(contains(wrongStruct.out, "SV_POSITION"), wrongStruct.out);
     const Outcome crash = check(folder, "const float2 dv", "*static_cast<volatile int*>(nullptr) = 1; const float2 dv");
     CHECK(crash.code == 1);
-    CHECK_MESSAGE(has(crash.out, "crashed"), crash.out);
+    CHECK_MESSAGE(contains(crash.out, "crashed"), crash.out);
 }
 
 TEST_CASE("exercises: a word that is none is one line and exit code 2")
@@ -113,7 +99,7 @@ TEST_CASE("exercises: a word that is none is one line and exit code 2")
         CAPTURE(refused.first);
         const Outcome outcome = runCommand(folder, refused.first);
         CHECK(outcome.code == 2);
-        CHECK(has(outcome.err, refused.second));
+        CHECK(contains(outcome.err, refused.second));
         CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
     }
 }

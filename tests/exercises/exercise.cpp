@@ -1,5 +1,6 @@
 // What an exercise is read from, the texts that are made of it, and what is wrong with one that is not.
 #include "grader/exercise.h"
+#include "contents.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -40,11 +41,6 @@ Expected<Exercise> read(const TemporaryFolder& folder, const std::string& text, 
     return readExercise((folder / stem).string());
 }
 
-bool has(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("exercise: a page and an answer are read as they are written")
@@ -80,11 +76,11 @@ TEST_CASE("exercise: variants are the answer with one mistake in it, or with two
         return found != variants->end() ? found->text : "";
     };
     CHECK(textOf("answer") == kAnswer);
-    CHECK(has(textOf("start"), "    // your turn: a sum\n    sum = 0;\n    // end of your turn\n"));
-    CHECK(has(textOf("minus"), "sum = a - b * c;"));
-    CHECK(has(textOf("no-c"), "sum = a + b;"));
-    CHECK(has(textOf("minus+no-c"), "sum = a - b;"));
-    CHECK(has(textOf("no-c+half"), "sum = 0.5f * a + b;"));
+    CHECK(contains(textOf("start"), "    // your turn: a sum\n    sum = 0;\n    // end of your turn\n"));
+    CHECK(contains(textOf("minus"), "sum = a - b * c;"));
+    CHECK(contains(textOf("no-c"), "sum = a + b;"));
+    CHECK(contains(textOf("minus+no-c"), "sum = a - b;"));
+    CHECK(contains(textOf("no-c+half"), "sum = 0.5f * a + b;"));
     CHECK(textOf("minus+a-twice").empty());  // both change the plus
     CHECK(textOf("minus+c-for-a").empty());
     CHECK(variants->size() == 2 + 5 + 4);
@@ -100,10 +96,10 @@ TEST_CASE("exercise: a learner's file has task, commands, gap and hints, and say
     REQUIRE(e.has_value());
     const std::string text = learnersText(*e, "exercises/1.08a_along_v.cpp");
     CHECK(text.starts_with("// Exercise 1.08a Along v (derive)\n//\n// Add it up.\n//\n// All of it.\n//\n"));
-    CHECK(has(text, "./relief check-exercise exercises/1.08a_along_v.cpp"));
-    CHECK(has(text, "    sum = 0;\n"));
-    CHECK(!has(text, "a + b"));
-    CHECK(!has(text, "// head"));
+    CHECK(contains(text, "./relief check-exercise exercises/1.08a_along_v.cpp"));
+    CHECK(contains(text, "    sum = 0;\n"));
+    CHECK(!contains(text, "a + b"));
+    CHECK(!contains(text, "// head"));
     CHECK(text.ends_with("// Hint 1: Plus.\n"));
     CHECK(exerciseIdOf("x.cpp", text) == "1.08a");
     CHECK(exerciseIdOf("a/1.08a_mine.cpp", "// ...") == "1.08a");
@@ -122,14 +118,15 @@ TEST_CASE("exercise: a page that is none says what is wrong, in one line that na
     };
     const std::string good = page(kMistakes);
     CHECK(problem(good).empty());
-    CHECK(has(problem("nothing\n"), "/exercise.md: its first line"));
-    CHECK(has(problem(good, "no marks"), "has no lines"));
-    CHECK(has(problem(good, kAnswer, "2.01a_other"), "not named after its id"));
-    CHECK(has(problem(page("- `minus` Only one.\n  - `a + b` -> `a - b`\n")), "five mistakes"));
-    CHECK(has(problem(page("- minus\n")), "write - `name`"));
-    CHECK(has(problem(page(kMistakes + "- `new` It is new.\n  - `q` -> `r`\n")), "mistake new: `q` does not stand"));
-    CHECK(has(problem(page(kMistakes + "- `new` It is new.\n  - ` ` -> `r`\n")), "exactly once"));
-    CHECK(has(problem(good + "\n## Other\n\nwords\n"), "section 'Other'"));
+    CHECK(contains(problem("nothing\n"), "/exercise.md: its first line"));
+    CHECK(contains(problem(good, "no marks"), "has no lines"));
+    CHECK(contains(problem(good, kAnswer, "2.01a_other"), "not named after its id"));
+    CHECK(contains(problem(page("- `minus` Only one.\n  - `a + b` -> `a - b`\n")), "five mistakes"));
+    CHECK(contains(problem(page("- minus\n")), "write - `name`"));
+    CHECK(
+        contains(problem(page(kMistakes + "- `new` It is new.\n  - `q` -> `r`\n")), "mistake new: `q` does not stand"));
+    CHECK(contains(problem(page(kMistakes + "- `new` It is new.\n  - ` ` -> `r`\n")), "exactly once"));
+    CHECK(contains(problem(good + "\n## Other\n\nwords\n"), "section 'Other'"));
 }
 
 TEST_CASE("exercise: all that there are can be read, and their stages, hints and explanations are there")
@@ -141,16 +138,14 @@ TEST_CASE("exercise: all that there are can be read, and their stages, hints and
         CHECK(e.answer.starts_with("// " + e.id + " " + e.title + ":"));
         CHECK(std::filesystem::exists(e.folder + "/answer/README.md"));
         CHECK(std::filesystem::exists(e.folder + "/goal.png"));
-        std::ifstream start(e.folder + "/start.txt");
-        std::stringstream given;
-        given << start.rdbuf();
-        CHECK_MESSAGE(given.str() == learnersText(e, "exercises/" + e.stem + ".cpp"), "run update_exercises");
+        CHECK_MESSAGE(contents(e.folder + "/start.txt") == learnersText(e, "exercises/" + e.stem + ".cpp"),
+                      "run update_exercises");
         CHECK(e.id.starts_with(e.stage));
         CHECK(std::count(e.answer.begin(), e.answer.end(), '\n') <= 120);
         const Expected<std::vector<Variant>> variants = variantsOf(e);
         CHECK_MESSAGE(variants.has_value(), variants.error().message);
         CHECK(findExercise(*all, e.id).value() == &e);
     }
-    CHECK(has(findExercise(*all, "9.99a").error().message, "`relief exercise` lists them all"));
-    CHECK(has(findExercise(*all, "1.08").error().message, "did you mean 1.08a"));
+    CHECK(contains(findExercise(*all, "9.99a").error().message, "`relief exercise` lists them all"));
+    CHECK(contains(findExercise(*all, "1.08").error().message, "did you mean 1.08a"));
 }

@@ -7,7 +7,8 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "grader/exercise.h"
+#include "along_v.h"
+#include "contents.h"
 #include "grader/submission.h"
 #include "live_command.h"
 
@@ -25,19 +26,6 @@ bool hasSandbox()
     REQUIRE_MESSAGE(checked.has_value(),
                     (checked ? "" : checked.error().message + "; or set RELIEF_WITHOUT_SANDBOX=1"));
     return true;
-}
-
-const Exercise& alongV()
-{
-    static const std::vector<Exercise> all = allExercises().value();
-    return *findExercise(all, "1.08a").value();
-}
-
-std::string answerWith(const std::string& from, const std::string& to, const std::string& head = "")
-{
-    std::string text = head + alongV().answer;
-    REQUIRE(text.find(from) != std::string::npos);
-    return text.replace(text.find(from), from.size(), to);
 }
 
 // The right answer, which does something else first.
@@ -70,11 +58,6 @@ struct Case
     std::string sentence() const { return grade["sentence"]; }
 };
 
-bool has(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("grade: a class of four: solved, wrong twice with the same text, and not compiled")
@@ -90,9 +73,9 @@ TEST_CASE("grade: a class of four: solved, wrong twice with the same text, and n
     fs::create_symlink(folder / "class/ada/mine.cpp", folder / "class/link_1.08a.cpp");
     const Outcome outcome = runCommand(folder, "grade class --output out");
     CHECK(outcome.code == 1);
-    CHECK_MESSAGE(has(outcome.out, "1 of 4 solved. out/index.html"), (outcome.out + outcome.err));
-    CHECK(has(outcome.out, "[the same text as eve]"));
-    CHECK(has(outcome.out, "[the same text as bob]"));
+    CHECK_MESSAGE(contains(outcome.out, "1 of 4 solved. out/index.html"), (outcome.out + outcome.err));
+    CHECK(contains(outcome.out, "[the same text as eve]"));
+    CHECK(contains(outcome.out, "[the same text as bob]"));
 
     std::ifstream file(folder / "out/grades.json");
     const nlohmann::json grades = nlohmann::json::parse(file);
@@ -105,11 +88,11 @@ TEST_CASE("grade: a class of four: solved, wrong twice with the same text, and n
     CHECK(grades[0]["learner"] == "=dan");
     CHECK(grades[0]["verdict"] == "not compiled");
     const std::string page = contents(folder / "out/index.html"), table = contents(folder / "out/grades.csv");
-    CHECK(!has(page, "<b>"));
-    CHECK(has(page, "&lt;b&gt;"));
-    CHECK(has(page, "pictures/3-difference.png"));
+    CHECK(!contains(page, "<b>"));
+    CHECK(contains(page, "&lt;b&gt;"));
+    CHECK(contains(page, "pictures/3-difference.png"));
     CHECK(fs::exists(folder / "out/pictures/3-difference.png"));
-    CHECK(has(table, "\"'=dan\""));  // no formula
+    CHECK(contains(table, "\"'=dan\""));  // no formula
     CHECK(std::count(table.begin(), table.end(), '\n') == 5);
 }
 
@@ -135,13 +118,13 @@ TEST_CASE("grade: a fork, and a program that is started, end the process that tr
 {
     if (!hasSandbox()) return;
     const Case fork(hostile("while (true) ::fork();", "#include <unistd.h>\n"));
-    CHECK_MESSAGE(has(fork.sentence(), "tried to start another process"), fork.sentence());
+    CHECK_MESSAGE(contains(fork.sentence(), "tried to start another process"), fork.sentence());
     const Case shell(
         hostile("[[maybe_unused]] int r = std::system(\"touch /tmp/relief-was-here\");", "#include <cstdlib>\n"));
-    CHECK_MESSAGE(has(shell.sentence(), "tried to start another process"), shell.sentence());
+    CHECK_MESSAGE(contains(shell.sentence(), "tried to start another process"), shell.sentence());
     CHECK(!fs::exists("/tmp/relief-was-here"));
     const Case atLoad(answerWith("namespace {", "namespace {\nconst int early = ::fork();", "#include <unistd.h>\n"));
-    CHECK_MESSAGE(has(atLoad.sentence(), "tried to start another process"), atLoad.sentence());
+    CHECK_MESSAGE(contains(atLoad.sentence(), "tried to start another process"), atLoad.sentence());
 }
 
 TEST_CASE("grade: a hundred gigabytes of memory, of threads and of files are not to be had")
@@ -198,8 +181,8 @@ TEST_CASE("grade: nothing outside can be deleted or read, and there is no networ
     for (const std::string& path : {std::string("/etc/passwd"), alongV().folder + "/answer/answer.cpp", victim}) {
         const Case includes("#include \"" + path + "\"\n" + alongV().answer);
         CHECK_MESSAGE(includes.verdict() == "not compiled", includes.sentence());
-        CHECK((has(includes.sentence(), "file not found") || has(includes.sentence(), "No such file")));
-        CHECK(!has(includes.sentence(), "root:"));
+        CHECK((contains(includes.sentence(), "file not found") || contains(includes.sentence(), "No such file")));
+        CHECK(!contains(includes.sentence(), "root:"));
     }
 }
 
@@ -235,18 +218,18 @@ TEST_CASE("grade: bad input is one line, and without a sandbox nothing runs unle
                                           std::pair("grade empty", "has no file that ends with .cpp")}) {
         const Outcome outcome = runCommand(folder, words);
         CHECK(outcome.code == 2);
-        CHECK(has(outcome.err, sentence));
+        CHECK(contains(outcome.err, sentence));
         CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
     }
     // As where bubblewrap is not installed: no program of that name in the path.
     const std::string command = "cd '" + folder.path.string() +
                                 "' && PATH=/nowhere '" RELIEF_PROGRAMS "/relief_view' grade class >out.txt 2>err.txt";
     CHECK(WEXITSTATUS(std::system(command.c_str())) == 2);
-    CHECK(has(contents(folder / "err.txt"), "there is no sandbox: install bubblewrap"));
+    CHECK(contains(contents(folder / "err.txt"), "there is no sandbox: install bubblewrap"));
     CHECK(!fs::exists(folder / "class-grades"));
     const Outcome trusted = runCommand(folder, "grade class/ --without-sandbox");
     CHECK(trusted.code == 1);
-    CHECK(has(trusted.out, "ada       1.08a  solved"));
-    CHECK(has(trusted.out, "does not say which exercise it is"));
+    CHECK(contains(trusted.out, "ada       1.08a  solved"));
+    CHECK(contains(trusted.out, "does not say which exercise it is"));
     CHECK(fs::exists(folder / "class-grades/index.html"));
 }

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
-#include <regex>
 #include <sstream>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include "common/pattern.h"
 #include "common/render.h"
 #include "live/load.h"
 #include "relief/check/hash.h"
@@ -196,16 +196,16 @@ TEST_CASE("trace: what a statement gives a value is told, and nothing else")
         {"x = s ? \"a = b;\"[0] : '='; // y = 3;", "x"},
         {"/* a = 1; */ b = 2;", "b"},
     };
-    const std::regex seen(R"re(see\(::relief::trace::Site\{"f",(\d+),"F","([^"]*)"\})re");
+    const Pattern seen(R"re(see\(::relief::trace::Site\{"f",(\d+),"F","([^"]*)"\})re");
     for (const auto& [given, names] : cases) {
         const std::string statement = given;
         CAPTURE(statement);
         const std::string text = samples::trace::instrumented("void F()\n{\n" + statement + "\n}\n", "f");
         CAPTURE(text);
         std::string found;
-        for (std::sregex_iterator m(text.begin(), text.end(), seen), end; m != end; ++m) {
-            found += (found.empty() ? "" : " ") + (*m)[2].str();
-            CHECK((*m)[1] == "3");
+        for (const Match& m : seen.find(text)) {
+            found += (found.empty() ? "" : " ") + m[2];
+            CHECK(m[1] == "3");
         }
         CHECK(found == names);
         CHECK(std::count(text.begin(), text.end(), '\n') == 4);

@@ -300,12 +300,7 @@ public:
     }
     ~PageOpener() { ::setenv("PATH", path.c_str(), 1); }
 
-    std::string opened() const
-    {
-        std::stringstream address;
-        address << std::ifstream(folder / "opened").rdbuf();
-        return address.str();
-    }
+    std::string opened() const { return contents(folder / "opened"); }
 
 private:
     const TemporaryFolder folder;
@@ -374,12 +369,10 @@ TEST_CASE("view: the life of a kept pixel is told line by line, and on a page")
     hands.click("pixel.page");
     REQUIRE(hands.until([&] { return pages.opened().ends_with(".html"); }));
     const std::string path = pages.opened().substr(std::string("file://").size());
-    std::stringstream page;
-    page << std::ifstream(path).rdbuf();
+    const std::string page = contents(path);
     const Viewer::Point kept = *hands.viewer().kept;
-    CHECK(page.str().find("The life of pixel " + std::to_string(kept.x) + "," + std::to_string(kept.y)) !=
-          std::string::npos);
-    CHECK(page.str().find("const Float lambert = saturate(") != std::string::npos);
+    CHECK(contains(page, "The life of pixel " + std::to_string(kept.x) + "," + std::to_string(kept.y)));
+    CHECK(contains(page, "const Float lambert = saturate("));
     std::filesystem::remove(path);
 }
 

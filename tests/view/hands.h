@@ -4,8 +4,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -13,6 +11,7 @@
 
 #include <doctest/doctest.h>
 
+#include "contents.h"
 #include "temporary_folder.h"
 #include "view/application.h"
 
@@ -190,11 +189,3 @@ struct Hands
 
     std::unique_ptr<relief::samples::Application> application;
 };
-
-inline std::string contents(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
