@@ -77,15 +77,20 @@ std::string without(std::string command, const std::string& option)
     return at == std::string::npos ? command : command.erase(at, end - at);
 }
 
-// Files that CMake wrote are of little interest, but for the precompiled header.
-std::optional<Unit> unitOf(const nlohmann::json& entry, const std::string& source, const std::string& object)
+// Files that CMake wrote are of little interest, but for the precompiled header, and for tests that are compiled
+// together.
+std::optional<Unit> unitOf(const nlohmann::json& entry, const std::string& source, const fs::path& build,
+                           const std::string& object)
 {
     const auto file = entry["file"].get<std::string>();
     const std::string command = "cd " + quoted(entry["directory"].get<std::string>()) + " && exec " +
                                 writingTo(entry["command"].get<std::string>(), object);
     if (file.ends_with("cmake_pch.hxx.cxx")) return Unit{"precompiled", "precompiled header", command, {}};
-    const std::string path = fs::path(file).lexically_relative(source).generic_string();
-    if (path.starts_with("build/")) return std::nullopt;
+    std::string path = fs::path(file).lexically_relative(source).generic_string();
+    if (path.starts_with("build/")) {
+        path = fs::path(file).lexically_relative(build).generic_string();
+        if (!path.starts_with("tests/")) return std::nullopt;
+    }
     for (const auto& [folder, kind] : kFolders) {
         if (!path.starts_with(folder)) continue;
         const std::string stage = path.substr(std::string("samples/").size());
@@ -118,12 +123,12 @@ Expected<std::vector<Unit>> allUnits(const fs::path& build, const ReportOptions&
 {
     std::ifstream file(build / "compile_commands.json");
     const nlohmann::json entries = nlohmann::json::parse(file, nullptr, false);
-    const std::string source = cached(build, "CMAKE_HOME_DIRECTORY");
+    const std::string source = cached(build, "CMAKE_HOME_DIRECTORY"), built = cached(build, "CMAKE_CACHEFILE_DIR");
     if (entries.is_discarded() || source.empty())
         return fail("--build " + build.string() + ": no configured build; run `./relief report build`");
     std::vector<Unit> units;
     for (const nlohmann::json& entry : entries) {
-        if (const std::optional<Unit> unit = unitOf(entry, source, (folder / "object").string()))
+        if (const std::optional<Unit> unit = unitOf(entry, source, built, (folder / "object").string()))
             units.push_back(*unit);
     }
     const std::vector<Unit> alone = headers(units, source, folder);
