@@ -1,6 +1,7 @@
 // Scenes of files, lit: fronts and backs, mirrored nodes, alpha, uv sets; and one picture that has the same bits
 // everywhere.
 #include "common/lit_scene.h"
+#include "common/read_environment.h"
 
 #include <cmath>
 #include <filesystem>

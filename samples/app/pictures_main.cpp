@@ -1,5 +1,4 @@
-// The program of one stage, and relief_pictures of all of them: their pictures, and what can be said of them. It has no
-// window, compiles no stage and grades nothing, so that whoever wants a picture waits for nothing else to be built.
+// relief_pictures: what the program of one stage does (stage_main.cpp), of all of them, and the gallery.
 #include "command_line.h"
 #include "commands.h"
 

@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "common/lit_scene.h"
+#include "common/read_environment.h"
 #include "relief/path.h"
 #include "relief/pipeline/save.h"
 #include "relief/scene/gltf.h"

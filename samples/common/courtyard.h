@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "common/lit_scene.h"
+#include "common/read_environment.h"
 
 namespace relief::samples {
 

@@ -7,12 +7,10 @@
 
 #include "common/render.h"
 #include "relief/pipeline/target_texture.h"
-#include "relief/pipeline/workers.h"
 #include "relief/shading/normals.h"
 #include "relief/shading/object_transform.h"
 #include "relief/shading/tangent_space.h"
 #include "relief/texture/comparison_sampler.h"
-#include "relief/texture/image.h"
 
 namespace relief::samples {
 
@@ -327,26 +325,6 @@ Expected<SunShadow> LitScene::shadowOf(const float3& sun, int threads, int side)
     return textureOf(*target, 0).map([&](Texture&& depth) {
         return SunShadow{std::move(depth), firstLane(sun), sunFromWorld, 2.0f * radius / static_cast<float>(side)};
     });
-}
-
-Expected<Environment> readEnvironment(const std::string& path, int threads)
-{
-    const Expected<ImageFile> picture = readImage(path);
-    if (!picture) return tl::unexpected(picture.error());
-    const auto inFile = [&path](const Error& error) { return fail(path + ": " + error.message); };
-    Expected<CubeMap> map = CubeMap::fromPicture(*picture, ColorSpace::srgb);
-    if (!map) return inFile(map.error());
-    const SphericalHarmonics irradiance = irradianceOf(*map);
-    if (isPrefiltered(*map)) return Environment{*map, *map, irradiance};
-    Workers workers(threads);
-    const auto run = [&workers](int tasks, const std::function<void(int)>& function) {
-        workers.run(tasks, [&function](int task, int) { function(task); });
-    };
-    const Expected<ImageFloat> levels = prefilteredEnvironment(*map, {.side = 128, .samples = 256}, run);
-    if (!levels) return inFile(levels.error());
-    Expected<CubeMap> mirrored = CubeMap::fromPicture(*levels, ColorSpace::linear);
-    if (!mirrored) return inFile(mirrored.error());
-    return Environment{std::move(*map), std::move(*mirrored), irradiance};
 }
 
 LitScene::View LitScene::view(float aspect) const

@@ -20,18 +20,6 @@ struct SunShadow
     float texel;             // its width in the world
 };
 
-// A picture of what surrounds a scene, made ready (shading/environment.h).
-struct Environment
-{
-    CubeMap radiance;               // as the picture has it
-    CubeMap mirrored;               // by roughness
-    SphericalHarmonics irradiance;  // for matte surfaces
-};
-
-// From a file that `import-environment` wrote, or any picture that it takes; such a one is prefiltered here, with fewer
-// samples. `threads`: 0 for one per processor.
-Expected<Environment> readEnvironment(const std::string& path, int threads);
-
 // The light that a scene stands in. What it points to is not owned.
 struct Surroundings
 {

@@ -6,12 +6,10 @@
 #include "common/assets.h"
 #include "common/courtyard.h"
 #include "common/import_options.h"
-#include "common/lit_scene.h"
 #include "common/tangent_space_visualizer.h"
 #include "relief/mesh/spherical_uv.h"
 #include "relief/mesh/tangents.h"
 #include "relief/pipeline/workers.h"
-#include "relief/scene/gltf.h"
 
 namespace relief::samples {
 
@@ -81,9 +79,9 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
     }
     if (inputs.mesh == kSceneOfFile) {
         if (users.mesh.empty()) return fail("this stage shows a scene of a file; name it with --mesh FILE.glb");
-        Expected<SceneFile> scene = readGltf(users.mesh);
+        Expected<std::shared_ptr<const LitScene>> scene = readLitScene(users.mesh);
         if (!scene) return tl::unexpected(scene.error());
-        loaded->usersScene = std::make_shared<const LitScene>(std::move(*scene));
+        loaded->usersScene = std::move(*scene);
         loaded->objects = arranged("quad", 0.0f);  // nobody draws it
     } else if (isPrimitive(users.mesh)) {
         loaded->objects = arranged(users.mesh, inputs.cubesTurnedBy);
@@ -125,28 +123,6 @@ Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const I
         if (!load.result) return tl::unexpected(load.result.error());
     }
     return loaded;
-}
-
-void Scene::drawFile(const Surroundings& day) const
-{
-    const Surroundings light = inputs.usersScene->lightOf(day);
-    const SceneFile& file = inputs.usersScene->file();
-    for (const std::string& line : file.notes) note(line);
-    for (const auto& texture : file.textures) log.textures.insert(texture.get());
-    // The sun's shadows stay as long as the sun does.
-    if (!log.sunShadow || log.sunShadow->sun != firstLane(light.sun.dir)) {
-        Expected<SunShadow> shadow = inputs.usersScene->shadowOf(light.sun.dir, frame.options().threads);
-        if (!shadow) {
-            log.problem = shadow.error().message;
-            return;
-        }
-        log.sunShadow = std::make_shared<SunShadow>(std::move(*shadow));
-    }
-    Surroundings shadowed = light;
-    shadowed.shadow = log.sunShadow.get();
-    if (const auto drawn = inputs.usersScene->draw(frame, {clipFromWorld, cameraPosition}, shadowed); !drawn) {
-        log.problem = drawn.error().message;
-    }
 }
 
 void SceneLog::clear()

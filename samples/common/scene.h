@@ -46,6 +46,9 @@ struct LoadedInputs
     std::shared_ptr<const Environment> environment;  // null: none, or the stage reads none
 };
 
+// Of a glTF file.
+Expected<std::shared_ptr<const LitScene>> readLitScene(const std::string& path);
+
 // Loads what a stage reads. A file that cannot be read, or that the stage has no input for, is an error naming it.
 Expected<std::unique_ptr<LoadedInputs>> loadInputs(const Inputs& inputs, const InputFiles& files);
 

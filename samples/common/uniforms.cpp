@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/camera.h"
-#include "common/lit_scene.h"
+#include "common/read_environment.h"
 
 namespace relief::samples {
 

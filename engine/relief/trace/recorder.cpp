@@ -6,12 +6,6 @@
 
 namespace relief::inline RELIEF_WIDTH::trace {
 
-float QuadValue::number(int pixel, int component) const
-{
-    const std::uint32_t word = words[static_cast<std::size_t>(pixel)][static_cast<std::size_t>(component)];
-    return kind == ValueKind::number ? bitCast<float>(word) : static_cast<float>(static_cast<std::int32_t>(word));
-}
-
 QuadValue quadOf(const LaneValue& value, int quad)
 {
     QuadValue its{value.kind, value.rows, value.columns, {}};

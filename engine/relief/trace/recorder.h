@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "relief/bits.h"
 #include "relief/trace/sample_trace.h"
 
 namespace relief::inline RELIEF_WIDTH::trace {
@@ -17,7 +18,11 @@ struct QuadValue
     int rows = 1, columns = 1;
     std::array<std::array<std::uint32_t, 16>, 4> words{};  // of each pixel: floats' bits, integers, 0 and 1
 
-    float number(int pixel, int component) const;
+    float number(int pixel, int component) const
+    {
+        const std::uint32_t word = words[static_cast<std::size_t>(pixel)][static_cast<std::size_t>(component)];
+        return kind == ValueKind::number ? bitCast<float>(word) : static_cast<float>(static_cast<std::int32_t>(word));
+    }
 };
 
 // From all lanes; `quad` is its first one.

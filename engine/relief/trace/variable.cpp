@@ -222,11 +222,6 @@ void showAs(Show show, Inspection& result)
 
 }  // namespace
 
-bool namesVariable(const std::string& view)
-{
-    return view.find('@') != std::string::npos;
-}
-
 Expected<Inspection> inspectVariable(Frame& frame, const std::string& view)
 {
     const Expected<Wanted> wanted = parseVariable(view);

@@ -12,7 +12,10 @@ namespace relief::inline RELIEF_WIDTH::trace {
 // "tangentSpaceNormal@57", "albedo@81:length": a name as the source has it, the line that gives it a value, and how it
 // is shown: `range` (between the smallest and largest, the default), `colour` (0 to 1, as a screen shows it), `unit`
 // (-1 to 1), `length`, `sign` (-1, 0 or 1), or one of its components, `x` to `w`.
-bool namesVariable(const std::string& view);
+inline bool namesVariable(const std::string& view)
+{
+    return view.find('@') != std::string::npos;
+}
 
 // As inspect() does with a view. Of several draws the last one's that was drawn there counts, and of a loop the last
 // round's. An error for a line that gives no such value in any pixel names those that there are.
