@@ -193,6 +193,12 @@ TEST_CASE("functions of each component take numbers, single values, plain vector
         CHECK(all(tanh(v)[k] == tanh(v[k])));
         CHECK(all(asin(v * 0.25f)[k] == asin(v[k] * 0.25f)));
     }
+    // Into the argument itself.
+    float3 both = v;
+    sincos(both, both, cosine);
+    for (int k = 0; k < 3; ++k) CHECK(all(cosine[k] == cos(v[k])));
+    both = float3(1.25f, -1.25f, 2);
+    CHECK(is(modf(both, both), 0.25f, -0.25f, 0.0f));
     CHECK(is(modf(float3(1.25f, -1.25f, 2), whole), 0.25f, -0.25f, 0.0f));
     CHECK(is(whole, 1.0f, -1.0f, 2.0f));
 }
@@ -564,8 +570,57 @@ TEST_CASE("swizzles")
     CHECK(is(v.xyz().zzx(), 3.0f, 3.0f, 1.0f));
 }
 
+TEST_CASE("any and all of single values and of integers, per pixel")
+{
+    CHECK(all(any(int3(0, 0, 2))));
+    CHECK(none(any(int3(0, 0, 0))));
+    CHECK(none(all(int2(1, 0))));
+    CHECK(all(all(int4(1, 2, 3, -4))));
+    CHECK(all(any(Float(laneXs() + 1))));
+    CHECK(none(all(Int(0))));
+}
+
+TEST_CASE("bool vectors: chosen, compared and told apart")
+{
+    const bool3 a(true, false, true), b(true, true, false);
+    const auto isBits = [](const bool3& v, bool x, bool y, bool z) {
+        return all(v.x == x) && all(v.y == y) && all(v.z == z);
+    };
+    CHECK(isBits(a ^ b, false, true, true));
+    CHECK(isBits(a == b, true, false, false));
+    CHECK(isBits(a != b, false, true, true));
+    CHECK(isBits(select(a, b, !b), true, false, false));
+    CHECK(isBits(select(laneXs() >= 0, a, b), true, false, true));
+    CHECK(all(select(Mask(false), Mask(false), Mask(true))));
+}
+
+TEST_CASE("integers: quotients, rests, shifts and products of vectors")
+{
+    const auto isInts = [](const int3& v, int x, int y, int z) { return all(all(v == int3(x, y, z))); };
+    const int3 v(7, -7, 9);
+    CHECK(isInts(v / 2, 3, -3, 4));
+    CHECK(isInts(v % 4, 3, -3, 1));
+    CHECK(isInts(v << int3(1, 2, 3), 14, -28, 72));
+    CHECK(isInts(v >> 1, 3, -4, 4));
+    CHECK(isInts(~v, -8, 6, -10));
+    CHECK(isInts(mul(2, v), 14, -14, 18));
+    CHECK(all(dot(v, int3(1, 2, 3)) == 20));
+    CHECK(all(mul(v, v) == 179));
+    CHECK(is(float2(7.5f, -7.5f) % 2, 1.5f, -1.5f));
+    // No number with a fraction becomes an Int by itself.
+    static_assert(!std::is_convertible_v<float, Int> && std::is_convertible_v<int, Int>);
+}
+
+TEST_CASE("mul: of a vector and a plain number")
+{
+    CHECK(is(mul(float3(1, 2, 3), 2.0f), 2.0f, 4.0f, 6.0f));
+    CHECK(is(mul(2, float3(1, 2, 3)), 2.0f, 4.0f, 6.0f));
+}
+
 TEST_CASE("constructors join vectors and numbers")
 {
+    CHECK(is(float4(glm::vec3(1, 2, 3), 4), 1.0f, 2.0f, 3.0f, 4.0f));
+    CHECK(is(float3(Float(1.0f), glm::vec2(2, 3)), 1.0f, 2.0f, 3.0f));
     CHECK(is(float4(float3(1.0f, 2.0f, 3.0f), 1.0f), 1.0f, 2.0f, 3.0f, 1.0f));
     CHECK(is(float4(float2(1.0f, 2.0f), float2(3.0f, 4.0f)), 1.0f, 2.0f, 3.0f, 4.0f));
     CHECK(is(float3(Float(5.0f)), 5.0f, 5.0f, 5.0f));

@@ -329,13 +329,10 @@ TEST_CASE("Double: sums and differences of integers are exact up to 2^53")
     const Double d = nearLimit(static_cast<double>(kTwo53 - 64), 1.0);
     const Double up = d + Double(63.0);
     const Double down = d - Double(63.0);
-    Double added = d;
-    added += Double(1.0);
     for (int i = 0; i < kLanes; ++i) {
         const std::int64_t exact = (i % 2 == 0 ? 1 : -1) * (kTwo53 - 64 - i);
         CHECK(static_cast<std::int64_t>(up[i]) == exact + 63);
         CHECK(static_cast<std::int64_t>(down[i]) == exact - 63);
-        CHECK(static_cast<std::int64_t>(added[i]) == exact + 1);
     }
 }
 

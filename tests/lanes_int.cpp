@@ -133,3 +133,35 @@ TEST_CASE("Int: load, store and set")
     v.store(out);
     for (int i = 0; i < kLanes; ++i) CHECK(out[i] == (i == 1 ? kIntMin : in[i]));
 }
+
+TEST_CASE("Int: quotients toward zero and their rests, of any two numbers")
+{
+    for (const std::int32_t divisor : {1, -1, 2, -3, 7, 1000, kIntMax, kIntMin, 0}) {
+        for (std::size_t begin = 0; begin + kLanes <= kInts.size(); ++begin) {
+            const Int a = Int::load(&kInts[begin]), quotient = a / divisor, rest = a % divisor;
+            int wrong = 0;
+            for (int i = 0; i < kLanes; ++i) {
+                const std::int64_t exact = divisor == 0 ? -1 : std::int64_t{a[i]} / divisor;
+                wrong += quotient[i] != static_cast<std::int32_t>(exact);
+                wrong += rest[i] != (divisor == 0 ? a[i] : static_cast<std::int32_t>(std::int64_t{a[i]} % divisor));
+            }
+            CHECK(wrong == 0);
+        }
+    }
+}
+
+TEST_CASE("Int: shifts by each lane's own number, of which five bits count, and the bits turned round")
+{
+    std::int32_t by[kLanes];
+    for (int i = 0; i < kLanes; ++i) by[i] = 5 * i - 20;
+    const Int bits = Int::load(by), value(-0x12345679);
+    for (int i = 0; i < kLanes; ++i) {
+        const int places = by[i] & 31;
+        CHECK((value << bits)[i] == static_cast<std::int32_t>(static_cast<std::uint32_t>(value[i]) << places));
+        CHECK((value >> bits)[i] == value[i] >> places);
+        CHECK((~value)[i] == 0x12345678);
+    }
+    Int product = value;
+    product *= 3;
+    CHECK(all(product == value * 3));
+}

@@ -87,6 +87,19 @@ TEST_CASE("matrix: transpose swaps rows and columns, twice makes nothing")
     CHECK(differences(transpose(t), m) == 0);
 }
 
+TEST_CASE("matrix: sums, multiples, and plain ones of GLM beside a vector")
+{
+    RandomBits random;
+    const auto a = randomMatrix<4>(random), b = randomMatrix<4>(random);
+    CHECK(differences(a + b - b, a - (b - b)) == 0);
+    CHECK(differences(-a, mul(-1.0f, a)) == 0);
+    CHECK(differences(mul(a, 2), a + a) == 0);
+    const glm::mat3 plain(1, 2, 3, 4, 5, 6, 7, 8, 10);
+    const float3 v(2, -1, 0.5f);
+    CHECK(firstLane(mul(plain, v)) == firstLane(mul(float3x3(plain), v)));
+    CHECK(firstLane(mul(v, plain)) == firstLane(mul(v, float3x3(plain))));
+}
+
 TEST_CASE("matrix: determinants")
 {
     CHECK(all(determinant(float3x3(glm::mat3(2, 0, 0, 5, 3, 0, 7, 11, 4))) == 24.0f));

@@ -53,13 +53,50 @@ struct LaneMatrix
         if constexpr (n == 4) return {m[0] * s, m[1] * s, m[2] * s, m[3] * s};
     }
     friend LaneMatrix mul(Float s, const LaneMatrix& m) { return mul(m, s); }
+    template <Number N>
+    friend LaneMatrix mul(const LaneMatrix& m, N s)
+    {
+        return mul(m, Float(s));
+    }
+    template <Number N>
+    friend LaneMatrix mul(N s, const LaneMatrix& m)
+    {
+        return mul(m, Float(s));
+    }
 
     friend V operator*(const LaneMatrix& m, const V& v) { return mul(m, v); }
     friend V operator*(const V& v, const LaneMatrix& m) { return mul(v, m); }
     friend LaneMatrix operator*(const LaneMatrix& a, const LaneMatrix& b) { return mul(a, b); }
+    friend LaneMatrix operator+(const LaneMatrix& a, const LaneMatrix& b)
+    {
+        if constexpr (n == 3) return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+        if constexpr (n == 4) return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]};
+    }
+    friend LaneMatrix operator-(const LaneMatrix& a, const LaneMatrix& b)
+    {
+        if constexpr (n == 3) return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+        if constexpr (n == 4) return {a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]};
+    }
+    friend LaneMatrix operator-(const LaneMatrix& m)
+    {
+        if constexpr (n == 3) return {-m[0], -m[1], -m[2]};
+        if constexpr (n == 4) return {-m[0], -m[1], -m[2], -m[3]};
+    }
 
     V columns[n];
 };
+
+// A plain matrix of GLM beside a vector.
+template <int n>
+LaneVector<Float, n> mul(const glm::mat<n, n, float>& m, const LaneVector<Float, n>& v)
+{
+    return mul(LaneMatrix<n>(m), v);
+}
+template <int n>
+LaneVector<Float, n> mul(const LaneVector<Float, n>& v, const glm::mat<n, n, float>& m)
+{
+    return mul(v, LaneMatrix<n>(m));
+}
 
 // The rows of m as columns.
 inline LaneMatrix<3> transpose(const LaneMatrix<3>& m)

@@ -64,6 +64,14 @@ inline Float dot(Float a, Float b)
 {
     return a * b;
 }
+inline Int mul(Int a, Int b)
+{
+    return a * b;
+}
+inline Int dot(Int a, Int b)
+{
+    return a * b;
+}
 // What remains of x, of x's sign: x - y * trunc(x / y). Exact where the quotient is small, else within 2^-24 of |x|,
 // and always less than |y|. NaN for y = 0 and for an infinite x.
 inline Float fmod(Float x, Float y)
@@ -74,6 +82,10 @@ inline Float fmod(Float x, Float y)
     rest = select(rest >= b, Float(0.0f), rest);
     rest = select(isinf(y) & isfinite(x), a, rest);
     return select(isnan(rest), quietNan(), copySign(rest, x));
+}
+inline Float operator%(Float x, Float y)
+{
+    return fmod(x, y);
 }
 inline Float modf(Float x, Float& whole)
 {
@@ -92,6 +104,24 @@ inline Float frexp(Float x, Float& exponent)
     const Int biased = (bits >> 23) & 255;
     exponent = select(ordinary, Float(biased - 126) - select(tiny, Float(24.0f), Float(0.0f)), Float(0.0f));
     return select(ordinary, asFloat((bits & Int(-0x7f800001)) | 0x3f000000), x);
+}
+
+// Per pixel, as of vectors. any(Mask) asks all pixels of the block.
+inline Mask any(Float x)
+{
+    return x != 0.0f;
+}
+inline Mask all(Float x)
+{
+    return x != 0.0f;
+}
+inline Mask any(Int x)
+{
+    return x != 0;
+}
+inline Mask all(Int x)
+{
+    return x != 0;
 }
 
 // --- bits of integers ---

@@ -6,7 +6,6 @@
 // friends defined in a class: found for these types alone, and open to conversions, which templates are not.
 #pragma once
 
-#include <concepts>
 #include <type_traits>
 
 #include <glm/vec2.hpp>
@@ -37,7 +36,7 @@ namespace detail {
         if constexpr (n == 4) return V(op a.x, op a.y, op a.z, op a.w); \
     }
 
-// Of numbers: Float has no & | ^, and Int no division.
+// Of numbers: Float has no & | ^ ~ << >>.
 template <class T, int n>
 struct VectorOperators
 {
@@ -48,10 +47,14 @@ struct VectorOperators
     RELIEF_OPERATOR(V, -)
     RELIEF_OPERATOR(V, *)
     RELIEF_OPERATOR(V, /)
+    RELIEF_OPERATOR(V, %)
     RELIEF_OPERATOR(V, &)
     RELIEF_OPERATOR(V, |)
     RELIEF_OPERATOR(V, ^)
+    RELIEF_OPERATOR(V, <<)
+    RELIEF_OPERATOR(V, >>)
     RELIEF_UNARY_OPERATOR(-)
+    RELIEF_UNARY_OPERATOR(~)
     friend V operator+(const V& a) { return a; }
 
     RELIEF_OPERATOR(B, <)
@@ -69,6 +72,9 @@ struct VectorOperators<Mask, n>
 
     RELIEF_OPERATOR(V, &)
     RELIEF_OPERATOR(V, |)
+    RELIEF_OPERATOR(V, ^)
+    RELIEF_OPERATOR(V, ==)
+    RELIEF_OPERATOR(V, !=)
     RELIEF_UNARY_OPERATOR(!)
 };
 
@@ -80,9 +86,15 @@ template <class N, class T>
 concept NumberFor = Number<N> &&
     (std::is_same_v<T, Float> || (std::is_same_v<T, Int> && WholeNumber<N>) || std::is_same_v<N, bool>);
 
-// A vector of `n`, or a field that is one, to be joined with others: no number, since float3(x, 1) is a mistake.
 template <class V, class T, int n>
-concept PartOf = std::is_base_of_v<LaneVector<T, n>, V>;
+inline constexpr bool kIsPlainVector = false;
+template <int n>
+inline constexpr bool kIsPlainVector<glm::vec<n, float>, Float, n> = true;
+
+// A vector of `n`, a field that is one, or a plain one of GLM, to be joined with others: no number, since float3(x, 1)
+// is a mistake.
+template <class V, class T, int n>
+concept PartOf = std::is_base_of_v<LaneVector<T, n>, V> || kIsPlainVector<V, T, n>;
 
 }  // namespace detail
 

@@ -111,12 +111,12 @@ struct VectorIntrinsics<Float, n>
     RELIEF_OF_EACH_THREE(smoothstep)
     friend V lerp(const V& a, const V& b, const V& t) { return a + (b - a) * t; }
     friend V mad(const V& a, const V& b, const V& c) { return a * b + c; }
-    friend void sincos(const V& v, V& sine, V& cosine)
+    friend void sincos(V v, V& sine, V& cosine)
     {
         sine = sin(v);
         cosine = cos(v);
     }
-    friend V modf(const V& v, V& whole)
+    friend V modf(V v, V& whole)
     {
         whole = trunc(v);
         return v - whole;
@@ -181,6 +181,16 @@ struct VectorIntrinsics<Float, n>
     friend Float mul(const V& a, const V& b) { return dot(a, b); }
     friend V mul(const V& v, Float s) { return v * s; }
     friend V mul(Float s, const V& v) { return s * v; }
+    template <Number N>
+    friend V mul(const V& v, N s)
+    {
+        return v * s;
+    }
+    template <Number N>
+    friend V mul(N s, const V& v)
+    {
+        return s * v;
+    }
 };
 
 // normalize() where a square leaves the range of floats. A function of its own, because it hardly ever runs.
@@ -228,6 +238,29 @@ struct VectorIntrinsics<Int, n>
     {
         return each<V>([](Mask k, Int x, Int y) { return select(k, x, y); }, m, a, b);
     }
+
+    friend Mask any(const V& v) { return any(v != V(0)); }
+    friend Mask all(const V& v) { return all(v != V(0)); }
+
+    friend Int dot(const V& a, const V& b)
+    {
+        if constexpr (n == 2) return a.x * b.x + a.y * b.y;
+        if constexpr (n == 3) return a.x * b.x + a.y * b.y + a.z * b.z;
+        if constexpr (n == 4) return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+    }
+    friend Int mul(const V& a, const V& b) { return dot(a, b); }
+    friend V mul(const V& v, Int s) { return v * s; }
+    friend V mul(Int s, const V& v) { return s * v; }
+    template <WholeNumber N>
+    friend V mul(const V& v, N s)
+    {
+        return v * s;
+    }
+    template <WholeNumber N>
+    friend V mul(N s, const V& v)
+    {
+        return s * v;
+    }
 };
 
 template <int n>
@@ -247,6 +280,15 @@ struct VectorIntrinsics<Mask, n>
         if constexpr (n == 2) return v.x & v.y;
         if constexpr (n == 3) return v.x & v.y & v.z;
         if constexpr (n == 4) return v.x & v.y & v.z & v.w;
+    }
+
+    friend V select(Mask m, const V& a, const V& b)
+    {
+        return each<V>([m](Mask x, Mask y) { return select(m, x, y); }, a, b);
+    }
+    friend V select(const V& m, const V& a, const V& b)
+    {
+        return each<V>([](Mask k, Mask x, Mask y) { return select(k, x, y); }, m, a, b);
     }
 
     // Between two values that are no vectors.

@@ -19,7 +19,6 @@ public:
     friend Double operator+(Double a, Double b) { return {a.low + b.low, a.high + b.high}; }
     friend Double operator-(Double a, Double b) { return {a.low - b.low, a.high - b.high}; }
     friend Double operator*(Double a, Double b) { return {a.low * b.low, a.high * b.high}; }
-    Double& operator+=(Double b) { return *this = *this + b; }
 
     native::DoubleVector low, high;
 };

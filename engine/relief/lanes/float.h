@@ -3,9 +3,7 @@
 // result of an expression is the same on every machine and for every number of lanes.
 #pragma once
 
-#include <concepts>
 #include <limits>
-#include <type_traits>
 
 #include "relief/lanes/int.h"
 #include "relief/lanes/mask.h"

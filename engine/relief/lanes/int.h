@@ -1,11 +1,11 @@
 // Int: one 32-bit signed integer for every pixel of a block: texel addresses, snapped coordinates, edge values.
-// Sums, differences and products wrap around.
+// Sums, differences, products and quotients wrap around. A float beside it is no Int: Float(i) * 0.5f.
 #pragma once
 
-#include <concepts>
 #include <utility>
 
 #include "relief/lanes/mask.h"
+#include "relief/lanes/number.h"
 
 namespace relief::inline RELIEF_WIDTH {
 
@@ -13,7 +13,11 @@ class Int
 {
 public:
     Int() = default;
-    constexpr Int(std::int32_t number) : value(native::IntVector{} + number) {}
+    template <WholeNumber N>
+    constexpr Int(N number) : value(native::IntVector{} + static_cast<std::int32_t>(number))
+    {
+        static_assert(sizeof(N) <= sizeof(std::int32_t), "an Int has 32 bits: convert the number first");
+    }
     explicit Int(native::IntVector native) : value(native) {}
 
     static Int load(const std::int32_t* lanes)
@@ -34,10 +38,12 @@ public:
     friend Int operator&(Int a, Int b) { return Int(a.value & b.value); }
     friend Int operator|(Int a, Int b) { return Int(a.value | b.value); }
     friend Int operator^(Int a, Int b) { return Int(a.value ^ b.value); }
+    friend Int operator~(Int a) { return Int(~a.value); }
     friend Int operator<<(Int a, int bits) { return Int(a.value << bits); }
     friend Int operator>>(Int a, int bits) { return Int(a.value >> bits); }  // keeps the sign
     Int& operator+=(Int b) { return *this = *this + b; }
     Int& operator-=(Int b) { return *this = *this - b; }
+    Int& operator*=(Int b) { return *this = *this * b; }
 
     friend Mask operator<(Int a, Int b) { return Mask(native::less(a.value, b.value)); }
     friend Mask operator>(Int a, Int b) { return b < a; }
@@ -52,6 +58,30 @@ private:
     native::UintVector asUnsigned() const { return (native::UintVector)value; }
     static Int fromUnsigned(native::UintVector v) { return Int((native::IntVector)v); }
 };
+
+// By each pixel's own number, of which the lowest five bits count.
+inline Int operator<<(Int a, Int bits)
+{
+    return Int(a.value << (bits.value & 31));
+}
+inline Int operator>>(Int a, Int bits)
+{
+    return Int(a.value >> (bits.value & 31));
+}
+
+// Toward zero, one pixel after the other: processors divide no vectors of integers. Divided by 0: -1, and the rest is
+// all of it.
+inline Int operator/(Int a, Int b)
+{
+    Int quotient;
+    for (int i = 0; i < kLanes; ++i)
+        quotient.set(i, b[i] == 0 ? -1 : static_cast<std::int32_t>(std::int64_t{a[i]} / b[i]));
+    return quotient;
+}
+inline Int operator%(Int a, Int b)
+{
+    return a - a / b * b;
+}
 
 inline Int select(Mask m, Int a, Int b)
 {

@@ -23,6 +23,9 @@ public:
     friend Mask operator&(Mask a, Mask b) { return Mask(native::maskAnd(a.value, b.value)); }
     friend Mask operator|(Mask a, Mask b) { return Mask(native::maskOr(a.value, b.value)); }
     friend Mask operator!(Mask a) { return Mask(native::maskNot(a.value)); }
+    friend Mask operator^(Mask a, Mask b) { return (a | b) & !(a & b); }
+    friend Mask operator!=(Mask a, Mask b) { return a ^ b; }
+    friend Mask operator==(Mask a, Mask b) { return !(a ^ b); }
     Mask& operator&=(Mask other) { return *this = *this & other; }
     Mask& operator|=(Mask other) { return *this = *this | other; }
 
@@ -40,6 +43,11 @@ inline bool all(Mask m)
 inline bool none(Mask m)
 {
     return m.bits() == 0;
+}
+
+inline Mask select(Mask m, Mask a, Mask b)
+{
+    return (m & a) | ((!m) & b);
 }
 
 // How many of a block's bits are set. Plain x86-64 has no instruction for it; of four bits, a table in a register
