@@ -41,7 +41,8 @@ TEST_CASE("obj number: too large for a float is no number, too small is 0 of its
     const std::string zeros(400, '0');
     for (const std::string& word :
          {std::string("3.5e38"), std::string("-1e39"), std::string("1e999"), std::string("1e1234567890123"),
-          "1" + zeros, std::string("0.1e99999999999999999999"), "1" + zeros + "e-5"}) {
+          "1" + zeros, std::string("0.1e99999999999999999999"), std::string("1e9223372036854775807"),
+          std::string("5000e9223372036854775806"), "1" + zeros + "e-5"}) {
         CAPTURE(word);
         CHECK_FALSE(parseDecimal(word).has_value());
     }

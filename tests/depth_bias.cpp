@@ -131,5 +131,7 @@ TEST_CASE("depth bias: numbers that are none are refused")
     state.depthBias.slope = std::numeric_limits<float>::quiet_NaN();
     const Expected<void> drawn = frame.draw(mesh, FromPixels(exactViewport(8, 8)), One{}, state);
     REQUIRE(!drawn.has_value());
-    CHECK(drawn.error().message == "draw of mesh 'm': a depth bias must be made of finite numbers");
+    CHECK(drawn.error().message ==
+          "draw of mesh 'm': its depth bias holds a NaN or an infinity; set all of RenderState::depthBias to finite "
+          "numbers");
 }

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "pipeline_fixture.h"
+#include "relief/trace/pixel_trace.h"
 
 using namespace fixture;
 
@@ -761,11 +762,13 @@ TEST_CASE("frame: the caller's rounding mode and flushing of subnormals change n
                 Frame frame(target, {threads, 64});
                 record(frame);
                 frame.run();
+                const bool traced = trace::tracePixel(frame, 20, 20).has_value();  // draws a tile on this thread
                 const int after = std::fegetround();
 #if defined(__SSE2__)
                 _mm_setcsr(0x1f80u);
 #endif
                 std::fesetround(FE_TONEAREST);
+                CHECK(traced);
                 CHECK(after == mode);
                 CHECK(sameBits(target, expected));
             }

@@ -154,6 +154,27 @@ TEST_CASE("frame life: a target of another format or size takes the place of the
     }
 }
 
+TEST_CASE("frame life: a small target in between leaves no trace in a large one")
+{
+    const Mesh mesh = randomMesh(14, 200, 90, 60);
+    for (const int smallWidth : {17, 1}) {  // of the second no draw's window has anything
+        Framebuffer target = makeTarget(90, 60, Format::rgba32f, Store::keep);
+        Frame frame(target, {2, 16});
+        const Viewport viewport = exactViewport(90, 60);
+        frame.clear(glm::vec4(0.25f));
+        frame.setViewport(viewport);
+        frame.setScissor({2, 0, 90, 60});
+        REQUIRE(frame.draw(mesh, FromPixels(viewport), Value{}, kOver).has_value());
+        const Statistics first = frame.run();
+        const Framebuffer expected = target;
+        target = makeTarget(smallWidth, 5, Format::rgba32f, Store::keep);
+        CHECK(frame.run().verticesShaded == (smallWidth > 2 ? first.verticesShaded : 0));
+        target = makeTarget(90, 60, Format::rgba32f, Store::keep);
+        CHECK(frame.run().verticesShaded == first.verticesShaded);
+        CHECK(sameBits(target, expected));
+    }
+}
+
 TEST_CASE("frame life: a frame with more triangles than it may keep runs in parts, with the same bits")
 {
     const Mesh mesh = randomMesh(16, 3000, 90, 60);

@@ -2,6 +2,7 @@
 #include "relief/pipeline/framebuffer.h"
 
 #include <string>
+#include <utility>
 
 #include "pipeline_fixture.h"
 #include "relief/pipeline/format.h"
@@ -28,6 +29,14 @@ TEST_CASE("framebuffer: each format has its own storage, of the right size")
             for (const float z : target.depth()) CHECK(z == 1.0f);
         }
     }
+}
+
+TEST_CASE("framebuffer: an attachment that is not there has no words")
+{
+    Framebuffer target = makeTarget(4, 4, Format::rgba8);
+    CHECK(target.words(target.stencilIndex()).empty());
+    CHECK(target.words(2).empty());
+    CHECK(std::as_const(target).words(-1).empty());
 }
 
 TEST_CASE("framebuffer: impossible sizes are errors that name the size and the limit (S-113)")

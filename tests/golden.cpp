@@ -112,4 +112,9 @@ TEST_CASE("golden: a float target is refused, not compared")
     const Framebuffer target = *Framebuffer::create(4, 4, Format::rgba32f);
     CHECK_FALSE(checkGolden(target, folder / "float.png", folder / "failures"));
     CHECK_FALSE(updateGolden(target, folder / "float.png"));
+    // The first colour counts, whatever the others are.
+    const Framebuffer both = *Framebuffer::create(4, 4, {{Format::rgba32f}, {Format::rgba8}});
+    CHECK_FALSE(checkGolden(both, folder / "float.png", folder / "failures"));
+    CHECK_FALSE(updateGolden(both, folder / "float.png"));
+    CHECK_FALSE(fs::exists(folder / "float.png"));
 }

@@ -71,6 +71,24 @@ TEST_CASE("instruments: dependsOn is right without clear(), asked before the fra
     }
 }
 
+TEST_CASE("instruments: a target's texture stays where samplers find it")
+{
+    const Mesh mesh = wholeScreen(0.5f);
+    Expected<Framebuffer> target = Framebuffer::create(20, 20, {{Format::rgba32f, Store::texture}});
+    REQUIRE(target.has_value());
+    const Texture* const texture = target->texture(0);
+    Frame frame(*target, {1, 16});
+    frame.clear(glm::vec4(0.0f));
+    REQUIRE(frame.draw(mesh, GiveTwo{}, ShowFirst{}, kDepthTested).has_value());
+    frame.run();
+    const Framebuffer before = *target;
+    CHECK(*dependsOn(frame, 0, 0));
+    CHECK(statisticsOf(frame, 0)->pixelsShaded == 400);
+    CHECK(target->texture(0) == texture);
+    CHECK(target->samePixels(before));
+    CHECK(texture->texel(3, 3) == glm::vec4(0.25f));
+}
+
 TEST_CASE("instruments: what one draw adds to the statistics, and what it writes")
 {
     // The left half is marked; of the whole screen behind it the stencil lets half through, and the depth test nothing.

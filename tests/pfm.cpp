@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "contents.h"
+#include "relief/pipeline/save.h"
 #include "temporary_folder.h"
 
 using namespace relief;
@@ -53,6 +54,23 @@ TEST_CASE("pfm: what is written comes back, bit for bit")
     for (std::size_t i = 0; i < 15; ++i) {
         CHECK(std::memcmp(&image.pixels[i * 4], &rgb[i * 3], 12) == 0);
         CHECK(image.pixels[i * 4 + 3] == 1.0f);
+    }
+}
+
+TEST_CASE("pfm: of a target's kinds of floats the first is written")
+{
+    const TemporaryFolder folder;
+    Expected<Framebuffer> target =
+        Framebuffer::create(5, 3, {{Format::r32f, Store::keep}, {Format::rgba16f, Store::keep}, {Format::rgba32f}});
+    REQUIRE(target);
+    for (glm::vec4& color : target->color32f()) color = {1.0f, 2.0f, 3.0f, 4.0f};
+    REQUIRE(writePfm(folder / "p.pfm", *target));
+    const Expected<ImageFile> read = readImage(folder / "p.pfm");
+    REQUIRE(read);
+    const auto& image = std::get<ImageFloat>(*read);
+    for (std::size_t i = 0; i < 15; ++i) {
+        CHECK(image.pixels[i * 4] == 1.0f);
+        CHECK(image.pixels[i * 4 + 2] == 3.0f);
     }
 }
 

@@ -2,6 +2,7 @@
 // on x86 with subnormal numbers taken for 0.
 #include "relief/lanes/environment.h"
 
+#include <array>
 #include <bit>
 #include <cfenv>
 #include <cmath>
@@ -22,6 +23,11 @@
 #include "relief/mesh/spherical_uv.h"
 #include "relief/mesh/tangents.h"
 #include "relief/mesh/triangulate.h"
+#include "relief/shading/camera.h"
+#include "relief/shading/environment.h"
+#include "relief/shading/lights.h"
+#include "relief/shading/object_transform.h"
+#include "relief/texture/cube_map.h"
 #include "relief/texture/dxt5.h"
 #include "relief/texture/import.h"
 #include "relief/texture/mip_fade.h"
@@ -107,6 +113,73 @@ Image8 noise(int width, int height)
 
 }  // namespace
 
+TEST_CASE("rounding: matrices, objects and surroundings")
+{
+    const auto bits = [](const glm::mat4& m) {
+        Bits all;
+        append(all, std::vector<glm::vec4>{m[0], m[1], m[2], m[3]});
+        return all;
+    };
+    const glm::mat4 view = lookAt({1.3f, 0.7f, -2.1f}, {0.1f, 0.3f, 0.2f}), turned = rotationY(33.3f);
+    CHECK(isSame([&] { return bits(lookAt({1.3f, 0.7f, -2.1f}, {0.1f, 0.3f, 0.2f})); }));
+    CHECK(isSame([&] { return bits(perspective(41.7f, 1.7f, 0.07f, 93.1f)); }));
+    CHECK(isSame([&] { return bits(perspectiveReversed(41.7f, 1.7f, 0.07f, 93.1f)); }));
+    CHECK(isSame([&] { return bits(orthographic(3.1f, 1.7f, 0.07f, 93.1f)); }));
+    CHECK(isSame([&] { return bits(rotationX(17.3f)); }));
+    CHECK(isSame([&] { return bits(rotationY(17.3f)); }));
+    CHECK(isSame([&] { return bits(rotationZ(17.3f)); }));
+    CHECK(isSame([&] {
+        const ObjectTransform object(view, turned);
+        Bits all = bits(firstLane(object.clipFromObject));
+        append(all,
+               std::vector<glm::vec3>{firstLane(object.normalFromObject)[0], firstLane(object.normalFromObject)[2]});
+        return all;
+    }));
+    CHECK(isSame([] {
+        const SphericalHarmonics sky =
+            gradientSurroundings({0.1f, 0.3f, 0.7f}, {0.2f, 0.2f, 0.3f}, {0.05f, 0.07f, 0.03f});
+        Bits all;
+        append(all, std::vector<glm::vec4>{firstLane(sky.A[0]), firstLane(sky.A[1]), firstLane(sky.A[2])});
+        return all;
+    }));
+}
+
+TEST_CASE("rounding: cube maps, and what they become")
+{
+    ImageFloat world{32, 16, {}};
+    for (const std::uint8_t value : noise(32, 16).pixels) world.pixels.push_back(static_cast<float>(value) * 0.37f);
+    const ImageFile picture = world, faces = noise(30, 5);
+    const auto bitsOfCube = [](const CubeMap& map) {
+        Bits bits;
+        for (int k = 0; k < map.levelCount(); ++k) {
+            for (int face = 0; face < kCubeFaces; ++face)
+                append(bits, std::vector<glm::vec4>{map.texel(k, face, 0, 0)});
+        }
+        return bits;
+    };
+    CHECK(isSame([&] { return bitsOfCube(*CubeMap::fromPicture(faces, ColorSpace::srgb)); }));
+    CHECK(isSame([&] { return bitsOfCube(*CubeMap::fromPicture(picture, ColorSpace::linear)); }));
+    const std::array<ImageFile, 6> sides = {noise(5, 5), noise(5, 5), noise(5, 5),
+                                            noise(5, 5), noise(5, 5), noise(5, 5)};
+    CHECK(isSame([&] { return bitsOfCube(*CubeMap::fromFaces(sides, ColorSpace::srgb)); }));
+    const std::array<ImageFile, 3> levels = {noise(24, 4), noise(12, 2), noise(6, 1)};
+    CHECK(isSame([&] { return bitsOfCube(*CubeMap::fromLevels(levels, ColorSpace::srgb)); }));
+    const CubeMap map = *CubeMap::fromPicture(picture, ColorSpace::linear);
+    CHECK(isSame([&] { return bitsOfCube(map); }));
+    CHECK(isSame([&] {
+        Bits bits;
+        const ImageFloat prefiltered = *prefilteredEnvironment(map, {.side = 8, .samples = 16});
+        for (const float value : prefiltered.pixels) bits.push_back(std::bit_cast<std::uint32_t>(value));
+        return bits;
+    }));
+    CHECK(isSame([&] {
+        const SphericalHarmonics sh = irradianceOf(map);
+        Bits all;
+        append(all, std::vector<glm::vec4>{firstLane(sh.A[0]), firstLane(sh.B[1]), firstLane(sh.A[2])});
+        return all;
+    }));
+}
+
 TEST_CASE("rounding: shapes")
 {
     CHECK(isSame([] { return bitsOf(makeCube()); }));
@@ -133,6 +206,7 @@ TEST_CASE("rounding: meshes that are made of meshes")
     CHECK(isSame([&] {
         const Bounds bounds = transformed(boundsOf(sphere), glm::mat4(0.3f));
         Bits bits;
+        append(bits, std::vector<glm::vec3>{Bounds{{0.1f, 0.3f, -0.7f}, {0.77f, 0.9f, 1e-40f}}.centre()});
         append(bits, std::vector<glm::vec3>{bounds.low,
                                             bounds.high,
                                             bounds.centre(),

@@ -154,10 +154,21 @@ TEST_CASE("vertex streams: a mesh without what VertexData asks for is one senten
     CHECK(errorOf(mesh, {.instances = 3}).empty());
     CHECK(names(errorOf(mesh, {.instances = 4}), "3 elements for 4 instances"));
     CHECK(names(errorOf(mesh, {.first = 1, .count = 3}), "is not within its 3 indices"));
-    CHECK(names(errorOf(mesh, {.first = 4}), "is not within its 3 indices"));
+    CHECK(names(errorOf(mesh, {.first = 4}), "the part from index 4 on is not within its 3 indices; choose"));
     CHECK(names(errorOf(mesh, {}, {.lineWidth = 3}), "1 or 2 pixels wide"));
     mesh = screen();
     CHECK(names(errorOf(mesh, {.instances = 0x7fffffff}), "more than 2^31"));
+    mesh.streams.push_back(mesh.streams[1]);
+    CHECK(names(errorOf(mesh), "it has two streams TEXCOORD2; take one of them out"));
+    mesh = screen();
+    mesh.streams.push_back({"TEXCOORD", 0, 2, {3, 4, 3, 4, 3, 4}, {}, false});
+    CHECK(names(errorOf(mesh), "it has two streams TEXCOORD0"));  // one of them is mesh.uvs
+    for (const int components : {0, 5}) {
+        mesh = screen();
+        mesh.streams[0].components = components;
+        CHECK(
+            names(errorOf(mesh), "its stream TEXCOORD1 has " + std::to_string(components) + " components; give it 1"));
+    }
 }
 
 TEST_CASE("vertex streams: a part of a mesh draws its indices alone, and shades their vertices alone")

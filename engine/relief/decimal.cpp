@@ -55,7 +55,7 @@ bool isLarge(std::string_view word)
     std::int64_t exponent = 0;
     const char* const begin = word.data() + mantissa + 1 + sign;
     const auto [end, error] = std::from_chars(begin, word.data() + word.size(), exponent);
-    return error == std::errc() ? exponent + place > 0 : *begin != '-';
+    return error == std::errc() ? exponent > -place : *begin != '-';
 }
 
 float toFloat(std::string_view word)

@@ -374,7 +374,7 @@ void addImportEnvironmentOptions(CLI::App& command, ImportEnvironmentOptions& op
         ->check(CLI::Range(8, 2048))
         ->capture_default_str();
     command.add_option("--samples", options.samples, "Directions for each texel")
-        ->check(CLI::Range(1, 65536))
+        ->check(CLI::Range(2, 65536))
         ->capture_default_str();
     command.add_option("--threads", options.threads, "Threads; 0: one per processor")->check(CLI::Range(0, 256));
 }

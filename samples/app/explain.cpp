@@ -53,7 +53,7 @@ std::vector<Row> rows(const Usage& usage)
         {"quads shaded", s.quadsShaded, ""},
         {"pixels shaded", s.pixelsShaded, percent(s.pixelsShaded, s.blocksShaded * kLanes) + " of the lanes that ran"},
         {"  without their program", s.pixelsColorless, "no target keeps what it gives"},
-        {"pixels hidden", s.pixelsHidden, "failed the depth test before any shading"},
+        {"pixels hidden", s.pixelsHidden, "failed the stencil or the depth test before any shading"},
         {"invalid colours", s.invalidColors, "NaN or infinite, replaced"},
         {"components used", static_cast<std::uint64_t>(usage.componentsUsed),
          usage.componentsUsed == usage.componentsDeclared
@@ -85,7 +85,7 @@ std::vector<Row> rowsOfPass(const Statistics& s)
         {"  without their program", s.pixelsColorless, "no target keeps what it gives"},
         {"pixels hidden", s.pixelsHidden, ""},
         {"stencil tests passed", s.stencilPassed, ""},
-        {"stencil tests failed", s.stencilFailed, "neither shaded nor hidden"},
+        {"stencil tests failed", s.stencilFailed, "their pixels are not shaded"},
         {"invalid colours", s.invalidColors, "NaN or infinite, replaced"},
         {"texture fetches", s.fetches.samples(), ""},
     };

@@ -162,24 +162,35 @@ GoldenRecord judge(const GoldenCase& check, const Expected<ImageFile>& picture, 
     return record;
 }
 
+namespace {
+
+Expected<ImageFile> pictureFor(const std::string& golden, const Framebuffer& target)
+{
+    Expected<ImageFile> picture = pictureOf(target);
+    if (picture && std::holds_alternative<Image8>(*picture)) return picture;
+    return fail(golden + ": goldens are 8-bit pictures, the target's first colour is not; use expectGolden()");
+}
+
+}  // namespace
+
 Expected<void> checkGolden(const Framebuffer& target, const std::string& golden, const std::string& failures)
 {
-    if (target.color8().empty()) return fail(golden + ": goldens are 8-bit pictures, the target is not");
+    const Expected<ImageFile> picture = pictureFor(golden, target);
+    if (!picture) return tl::unexpected(picture.error());
     const GoldenCase check{.name = utf8Of(pathOf(golden).stem()),
                            .golden = golden,
                            .actual = "",
                            .failures = failures,
                            .tolerance = {},
                            .updating = "updateGolden() does, or copy the file"};
-    const GoldenRecord record = judge(check, pictureOf(target), readImage(golden));
+    const GoldenRecord record = judge(check, picture, readImage(golden));
     if (record.passes()) return {};
     return fail(record.message);
 }
 
 Expected<void> updateGolden(const Framebuffer& target, const std::string& golden)
 {
-    if (target.color8().empty()) return fail(golden + ": goldens are 8-bit pictures, the target is not");
-    return pictureOf(target).and_then([&](const ImageFile& picture) { return writePicture(golden, picture); });
+    return pictureFor(golden, target).and_then([&](const ImageFile& picture) { return writePicture(golden, picture); });
 }
 
 }  // namespace relief

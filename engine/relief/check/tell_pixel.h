@@ -8,7 +8,8 @@
 namespace relief::inline RELIEF_WIDTH {
 
 // Of each triangle that the pixel was drawn with, the last ones of many: draw, mesh, number, what the fragment program
-// gave. The frame's tile runs once more (trace/pixel_trace.h), so what it draws must still be there.
+// gave. The frame's tile is drawn once more (trace/pixel_trace.h), so what it draws must still be there; of a
+// frame that does not clear it is drawn onto itself, and the triangles' fate may be another one.
 std::string tellPixel(Frame& frame, int x, int y);
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -455,16 +455,4 @@ constexpr bool integersAreFlat(FieldList<Field...>)
     return (true && ... && (!kIsInteger<typename Field::Value> || Field::kInterpolation == Interpolation::flat));
 }
 
-// Whether a struct has a field of this semantic.
-template <class Wanted, class... Field>
-constexpr bool hasField(FieldList<Field...>)
-{
-    return (false || ... || std::is_same_v<Wanted, Field>);
-}
-template <class Wanted, class Struct>
-constexpr bool hasField()
-{
-    return hasField<Wanted>(FieldsOf<Struct>{});
-}
-
 }  // namespace relief::inline RELIEF_WIDTH

@@ -1,8 +1,15 @@
 #include "relief/hlsl/signature.h"
 
+#include <string_view>
 #include <vector>
 
 namespace relief::inline RELIEF_WIDTH {
+
+std::string semanticOf(const Field& field)
+{
+    const std::string_view name = field.name;
+    return field.name + (name == "TEXCOORD" || name == "COLOR" ? std::to_string(field.index) : "");
+}
 
 namespace {
 

@@ -22,6 +22,9 @@ struct Field
     bool isInteger;
 };
 
+// "TEXCOORD1", "NORMAL".
+std::string semanticOf(const Field& field);
+
 // The fields of a struct, in order. What a std::span checks of its iterators would be most of a draw's compile time.
 class Fields
 {

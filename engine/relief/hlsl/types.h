@@ -13,8 +13,6 @@ namespace relief::inline RELIEF_WIDTH {
 
 template <int size>
 using FloatN = LaneVector<Float, size>;
-template <int size>
-using IntN = LaneVector<Int, size>;
 
 using float2 = LaneVector<Float, 2>;
 using float3 = LaneVector<Float, 3>;

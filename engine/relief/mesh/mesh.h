@@ -21,7 +21,7 @@ struct Mesh
 {
     std::string name = {};
     std::vector<glm::vec3> positions = {};
-    std::vector<glm::vec3> normals = {};      // as many as positions, unit length
+    std::vector<glm::vec3> normals = {};      // as many as positions, unit length; or none
     std::vector<glm::vec2> uvs = {};          // as many as positions or none; (0,0) is the picture's lower left
     std::vector<glm::vec4> tangents = {};     // as many as positions or none; xyz along +u, w the binormal's handedness
                                               // sign: cross(normal, tangent.xyz) * tangent.w points along +v
@@ -33,8 +33,10 @@ struct Mesh
 // All of it as a list: POSITION, NORMAL, TEXCOORD0, TANGENT and COLOR0, as far as they are there, and mesh.streams.
 std::vector<StreamView> streamsOf(const Mesh& mesh);
 
-// Fails, naming the first thing that is wrong, unless the lengths agree, there are whole triangles (lines, of meshes
-// for lines), every index names a position and every number is finite. A mesh without any triangle is valid.
+// For whoever works on a mesh with normals, as withTangents() does; a draw checks for itself what its VertexData asks
+// for. Fails, naming the first thing that is wrong, unless every position has a normal, the lengths agree, there are
+// whole triangles (lines, of meshes for lines), every index names a position and every number is finite. A mesh without
+// any triangle is valid.
 Expected<void> validate(const Mesh& mesh, int indicesPerPrimitive = 3);
 
 // Replaces the normals by smooth ones: the sum of the normals of the triangles around each vertex, weighted by their

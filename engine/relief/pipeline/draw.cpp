@@ -462,6 +462,8 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
                 if (next->triangle != triangle.lane) {
                     triangle.set(draw, batch, next->triangle);
                     corners[next->triangle] = cornersOf(draw, chunk, *batch.triangle[triangle.lane], triangle.isFront);
+                    for (const float* const components : corners[next->triangle].components)
+                        __builtin_prefetch(components);  // the program asks for them soon
                 }
                 const SampleCoverage* of = severalSamples ? samples + (next - blocks.begin()) : nullptr;
                 if (testEarly(state, triangle, *next, of, inTile, *free, tile, counts)) ++free;

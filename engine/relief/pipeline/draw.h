@@ -1,12 +1,12 @@
 // One draw, and the whole pipeline on one screen: start here.
 //
-//     vertices     shadeVertices   the vertex program, kLanes vertices at a time      -> clip space, screen
-//     triangles    setUpTriangles  clip, cull, snap to the pixel grid (setUpLines: lines become thin triangles)
-//                  binTriangles    to the tiles that each one touches
+//     vertices     shadeVertices   the vertex program, kLanes vertices at a time      -> clip space, pixel grid
+//     triangles    setUpTriangles  clip, cull (setUpLines: lines become thin triangles)
+//                  findTiles       that each one touches; sortByTile
 //     tile by tile rasterise       which pixels of which blocks are covered, a TriangleBatch at a time
 //                  shadeBlocks     early depth test, the fragment program, merge
 //
-// Programs are functors on lanes. What is compiled with them is in program.h: two functions and the tables of their
+// Programs are functors on lanes. What is compiled with them is in program.h: three functions and the tables of their
 // structs. A Draw is plain data, and all of the steps above are compiled once, in the engine. frame.h runs it all.
 #pragma once
 
@@ -32,6 +32,11 @@ struct Draw
     std::vector<StreamView> streams;  // one for each field of VertexData; without words for SV_VertexID and the like
     std::vector<Interpolation> interpolations;  // of each component
     DrawGeometry geometry;
+    std::uint32_t instances = 0;
+    Rectangle window = {};  // the viewport within the scissor
+
+    // Sets what of `geometry` depends on the target: no vertex is shaded where nothing of the window lies in it.
+    void fitTo(const Framebuffer& target);
 };
 
 // Whether the program, or alpha, decides which pixels or samples are drawn: it runs then, whatever becomes of its

@@ -150,7 +150,7 @@ Expected<void> Frame::record(const Programs& programs, const void* vertexProgram
         : contractsProducts
             ? fail("draw of mesh '" + mesh.name +
                    "': its programs are compiled without -ffp-contract=off, and would give other bits than elsewhere; "
-                   "add that flag (in CMake, link relief_engine, which passes it on)")
+                   "add that flag (in CMake, link relief::engine, which passes it on)")
             : makeDraw(programs, vertexProgram, fragmentProgram, mesh, state, part);
     if (!draw) {
         if (s.problem.empty()) s.problem = draw.error().message;
@@ -158,14 +158,11 @@ Expected<void> Frame::record(const Programs& programs, const void* vertexProgram
     }
     DrawGeometry& g = draw->geometry;
     g.viewport = s.viewport;
-    g.bounds = intersect({0, 0, s.target.width(), s.target.height()}, intersect(s.scissor, pixelsOf(s.viewport)));
+    draw->window = intersect(s.scissor, pixelsOf(s.viewport));
+    draw->fitTo(s.target);
     g.frontCounterClockwise = s.frontCounterClockwise;
     if (s.frontCounterClockwise && g.cull != Cull::none) g.cull = g.cull == Cull::back ? Cull::front : Cull::back;
     g.drawIndex = static_cast<std::uint32_t>(s.draws.size());
-
-    // Nothing can be seen: no vertex is shaded.
-    if (g.bounds.x0 >= g.bounds.x1 || g.bounds.y0 >= g.bounds.y1 || g.vertexCount == 0) g.primitiveCount = 0;
-    if (g.primitiveCount == 0) g.vertexCount = 0;
     s.draws.push_back(std::move(*draw));
     return {};
 }
@@ -261,10 +258,7 @@ void Frame::Storage::prepare()
     grid.width = (target.width() + grid.tileSize - 1) / grid.tileSize;
     grid.height = (target.height() + grid.tileSize - 1) / grid.tileSize;
     touched.assign(static_cast<std::size_t>(grid.count()), 0);
-    for (Draw& draw : draws) {
-        draw.geometry.bounds = intersect(draw.geometry.bounds, {0, 0, target.width(), target.height()});
-        draw.geometry.sampleReach = target.samples().reach;
-    }
+    for (Draw& draw : draws) draw.fitTo(target);
     const TargetMemory memory(target);
     for (Worker& worker : perWorker) {
         worker.statistics = {};

@@ -80,7 +80,7 @@ public:
     // Forgets the recorded draws and the clear, for the next frame.
     void reset();
 
-    // What instruments.h looks into.
+    // What instruments, views and traces look into (frame_storage.h).
     struct Storage;
     Storage& internals() const { return *storage; }
 

@@ -1,4 +1,5 @@
-// What a frame keeps: what was recorded, and the memory that running it takes. For frame.cpp and instruments.cpp.
+// What a frame keeps: what was recorded, and the memory that running it takes. For frame.cpp, and for
+// whoever looks into a frame: instruments, views, traces.
 #pragma once
 
 #include <atomic>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -126,23 +125,45 @@ Framebuffer::Framebuffer(const Framebuffer& other)
       mTextures(other.mTextures.size())
 {
     for (std::size_t i = 0; i < mWords.size(); ++i) {
-        if (other.mTextures[i] != nullptr) {
-            if (!makeTexture(static_cast<int>(i)))
-                std::abort();  // as for every copy of a container, without exceptions
-            mTextures[i]->hidden() = other.mTextures[i]->level(0);
-            mTextures[i]->show();
-        }
+        if (other.mTextures[i] != nullptr && !makeTexture(static_cast<int>(i)))
+            std::abort();  // as for every copy of a container, without exceptions
         const std::size_t bytes = wordCount(static_cast<int>(i)) * sizeof(std::uint32_t);
         if (bytes == 0) continue;
         mWords[i].reset(static_cast<std::uint32_t*>(std::malloc(bytes)));
         if (!mWords[i]) std::abort();
-        std::memcpy(mWords[i].get(), other.mWords[i].get(), bytes);
     }
+    copyPixels(other);
 }
 
 Framebuffer& Framebuffer::operator=(const Framebuffer& other)
 {
-    return *this = Framebuffer(other);
+    if (this == &other) return *this;
+    if (!isLike(other)) return *this = Framebuffer(other);
+    mSamples = other.mSamples;
+    copyPixels(other);
+    return *this;
+}
+
+bool Framebuffer::isLike(const Framebuffer& other) const
+{
+    const auto same = [](const Attachment& a, const Attachment& b) {
+        return a.format == b.format && a.store == b.store;
+    };
+    return mWidth == other.mWidth && mHeight == other.mHeight &&
+           std::equal(mAttachments.begin(), mAttachments.end(), other.mAttachments.begin(), other.mAttachments.end(),
+                      same);
+}
+
+void Framebuffer::copyPixels(const Framebuffer& other)
+{
+    for (std::size_t i = 0; i < mWords.size(); ++i) {
+        if (mTextures[i] != nullptr) {
+            mTextures[i]->hidden() = other.mTextures[i]->level(0);
+            mTextures[i]->show();
+        }
+        const std::size_t bytes = wordCount(static_cast<int>(i)) * sizeof(std::uint32_t);
+        if (bytes > 0) std::memcpy(mWords[i].get(), other.mWords[i].get(), bytes);
+    }
 }
 
 std::size_t Framebuffer::wordCount(int attachment) const
@@ -188,11 +209,15 @@ int Framebuffer::stencilIndex() const
 
 std::span<std::uint32_t> Framebuffer::words(int attachment)
 {
-    return {mWords[static_cast<std::size_t>(attachment)].get(), wordCount(attachment)};
+    const auto i = static_cast<std::size_t>(attachment);
+    if (i >= mWords.size()) return {};
+    return {mWords[i].get(), wordCount(attachment)};
 }
 std::span<const std::uint32_t> Framebuffer::words(int attachment) const
 {
-    return {mWords[static_cast<std::size_t>(attachment)].get(), wordCount(attachment)};
+    const auto i = static_cast<std::size_t>(attachment);
+    if (i >= mWords.size()) return {};
+    return {mWords[i].get(), wordCount(attachment)};
 }
 
 const Texture* Framebuffer::texture(int attachment) const
@@ -287,11 +312,9 @@ std::span<const std::uint32_t> Framebuffer::stencil() const
 
 bool Framebuffer::samePixels(const Framebuffer& other) const
 {
-    if (mWidth != other.mWidth || mHeight != other.mHeight || mAttachments.size() != other.mAttachments.size())
-        return false;
+    if (!isLike(other)) return false;
     for (std::size_t i = 0; i < mAttachments.size(); ++i) {
         const auto [format, store] = mAttachments[i];
-        if (format != other.mAttachments[i].format || store != other.mAttachments[i].store) return false;
         if (store == Store::discard) continue;
         const auto mine = shownRows(static_cast<int>(i)), theirs = other.shownRows(static_cast<int>(i));
         const auto bytes = static_cast<std::size_t>(mWidth) * static_cast<std::size_t>(wordsPerPixel(format)) * 4;

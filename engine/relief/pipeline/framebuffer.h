@@ -51,6 +51,8 @@ enum class Store
     texture
 };
 
+// What it holds before the first draw, each frame says: it clears (Frame::clear, clearColor, clearDepth ...) or, where
+// it does not, goes on with what is there.
 struct Attachment
 {
     Format format = Format::rgba8Srgb;
@@ -73,6 +75,8 @@ public:
     static Expected<Framebuffer> create(int width, int height, Format color = Format::rgba8Srgb,
                                         Store depth = Store::discard, int samples = 1);
 
+    // Assigned one of the same size and attachments, a target keeps its textures, which then hold the other one's
+    // pixels.
     Framebuffer(const Framebuffer& other);
     Framebuffer(Framebuffer&&) noexcept = default;
     Framebuffer& operator=(const Framebuffer& other);
@@ -95,7 +99,8 @@ public:
     // are red alone. Mip levels are built when they are asked for.
     const Texture* texture(int attachment) const;
 
-    // An attachment's pixels, wordsPerPixel() each, row by row, no padding; empty where it is not Store::keep.
+    // An attachment's pixels, wordsPerPixel() each, row by row, no padding; empty where it is not Store::keep, and
+    // where there is none.
     std::span<std::uint32_t> words(int attachment);
     std::span<const std::uint32_t> words(int attachment) const;
 
@@ -141,6 +146,8 @@ private:
     Framebuffer() = default;
     std::size_t wordCount(int attachment) const;
     Expected<void> makeTexture(int attachment);
+    bool isLike(const Framebuffer& other) const;
+    void copyPixels(const Framebuffer& other);
     template <class Pixel>
     std::span<Pixel> pixels(Format format) const;
 

@@ -28,7 +28,6 @@ public:
         }
         return data.get();
     }
-    T* get() const { return data.get(); }
 
 private:
     std::unique_ptr<T[]> data;

@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 
+#include "relief/lanes/environment.h"
 #include "relief/leave_out.h"
 #include "relief/pipeline/frame_storage.h"
 
@@ -164,6 +165,7 @@ Expected<Statistics> statisticsOf(Frame& frame, int draw)
 
 float shadeAlone(const Frame& frame, std::uint64_t blocks)
 {
+    const DefaultFloatingPoint environment;
     const Frame::Storage& s = frame.internals();
     const std::vector<Sample> samples = samplesOf(s);
     float sum = 0.0f;

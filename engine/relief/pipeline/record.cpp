@@ -10,31 +10,28 @@ namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
-std::string nameOf(const Field& field)
-{
-    const bool counted = std::string_view(field.name) == "TEXCOORD" || std::string_view(field.name) == "COLOR";
-    return field.name + (counted ? std::to_string(field.index) : "");
-}
-
 Expected<StreamView> findStream(const std::vector<StreamView>& streams, const Field& field, const Mesh& mesh,
                                 std::size_t vertices, std::uint32_t instances)
 {
     if (field.systemValue == SystemValue::id) return StreamView{field.name, 0, 1, true, false, nullptr, 0};
-    const auto found = std::find_if(streams.begin(), streams.end(), [&field](const StreamView& s) {
+    const auto isWanted = [&field](const StreamView& s) {
         return std::string_view(s.semantic) == field.name && s.index == field.index;
-    });
+    };
+    const auto found = std::find_if(streams.begin(), streams.end(), isWanted);
     const std::string name = "draw of mesh '" + mesh.name + "': ";
     if (found == streams.end()) {
-        return fail(name + "it has no " + nameOf(field) +
+        return fail(name + "it has no " + semanticOf(field) +
                     ", which VertexData asks for; give the mesh that stream, or take the field out");
     }
+    if (std::any_of(found + 1, streams.end(), isWanted))
+        return fail(name + "it has two streams " + semanticOf(field) + "; take one of them out");
     if (found->isInteger != field.isInteger) {
-        return fail(name + "its " + nameOf(field) + " holds " + (found->isInteger ? "integers" : "floats") +
+        return fail(name + "its " + semanticOf(field) + " holds " + (found->isInteger ? "integers" : "floats") +
                     ", and VertexData asks for the other; make both the same");
     }
     const std::size_t wanted = found->perInstance ? instances : vertices;
     if (found->count < wanted) {
-        return fail(name + "its " + nameOf(field) + " holds " + std::to_string(found->count) + " elements for " +
+        return fail(name + "its " + semanticOf(field) + " holds " + std::to_string(found->count) + " elements for " +
                     std::to_string(wanted) + (found->perInstance ? " instances" : " vertices") +
                     "; give each of them one");
     }
@@ -57,17 +54,26 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
 {
     const std::string name = "draw of mesh '" + mesh.name + "': ";
     if (state.lineWidth != 1 && state.lineWidth != 2) {
-        return fail(name + "lines are 1 or 2 pixels wide, not " + std::to_string(state.lineWidth));
+        return fail(name + "lines are 1 or 2 pixels wide, not " + std::to_string(state.lineWidth) +
+                    "; set RenderState::lineWidth to one of them");
     }
     const DepthBias& bias = state.depthBias;
     if (!std::isfinite(bias.constant) || !std::isfinite(bias.slope) || !std::isfinite(bias.limit)) {
-        return fail(name + "a depth bias must be made of finite numbers");
+        return fail(name +
+                    "its depth bias holds a NaN or an infinity; set all of RenderState::depthBias to finite numbers");
+    }
+    for (const VertexStream& stream : mesh.streams) {
+        if (stream.components < 1 || stream.components > 4) {
+            return fail(name + "its stream " + stream.semantic + std::to_string(stream.index) + " has " +
+                        std::to_string(stream.components) + " components; give it 1 to 4");
+        }
     }
     const std::size_t indices = mesh.indices.size();
     const std::size_t rest = indices - std::min<std::size_t>(part.first, indices);
     if (part.first > indices || (part.count != MeshPart{}.count && part.count > rest)) {
-        return fail(name + "the part from index " + std::to_string(part.first) + " on, " + std::to_string(part.count) +
-                    " long, is not within its " + std::to_string(indices) + " indices");
+        const std::string length = part.count != MeshPart{}.count ? ", " + std::to_string(part.count) + " long," : "";
+        return fail(name + "the part from index " + std::to_string(part.first) + " on" + length +
+                    " is not within its " + std::to_string(indices) + " indices; choose first and count within them");
     }
 
     const std::vector<StreamView> streams = streamsOf(mesh);
@@ -112,10 +118,9 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
     }
     g.indices = first;
     g.primitivesPerInstance = static_cast<std::uint32_t>(used / (state.primitive == Primitive::lines ? 2 : 3));
-    g.primitiveCount = g.primitivesPerInstance * part.instances;
     g.firstVertex = static_cast<std::uint32_t>(firstVertex);
     g.verticesPerInstance = static_cast<std::uint32_t>(vertices);
-    g.vertexCount = g.verticesPerInstance * part.instances;
+    draw.instances = part.instances;
     g.componentCount = static_cast<std::uint32_t>(programs.components);
     g.componentStride = (g.componentCount + 3) & ~3u;
     g.interpolations = draw.interpolations.data();
@@ -129,6 +134,16 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
     g.cull = state.cull;
     g.depthClip = state.depthClip;
     return draw;
+}
+
+void Draw::fitTo(const Framebuffer& target)
+{
+    DrawGeometry& g = geometry;
+    g.bounds = intersect(window, {0, 0, target.width(), target.height()});
+    g.sampleReach = target.samples().reach;
+    const bool isSeen = g.bounds.x0 < g.bounds.x1 && g.bounds.y0 < g.bounds.y1 && g.verticesPerInstance > 0;
+    g.primitiveCount = isSeen ? g.primitivesPerInstance * instances : 0;
+    g.vertexCount = g.primitiveCount > 0 ? g.verticesPerInstance * instances : 0;
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -91,7 +91,8 @@ struct RenderState
     Stencil stencil = {};
 };
 
-// Which indices of a mesh a draw takes, and how often.
+// Which indices of a mesh a draw takes, and how often. A triangle or a line that the last ones do not complete is not
+// drawn, as on GPUs.
 struct MeshPart
 {
     std::uint32_t first = 0;

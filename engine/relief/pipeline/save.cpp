@@ -7,14 +7,16 @@ namespace relief {
 
 namespace {
 
-// Red, green and blue of every pixel; empty where nothing is a float.
+// Red, green and blue of every pixel of the first kind that there is; empty where nothing is a float.
 std::vector<float> floatsOf(const Framebuffer& target)
 {
     std::vector<float> numbers;
     for (const glm::vec4& c : target.color32f()) numbers.insert(numbers.end(), {c.x, c.y, c.z});
+    if (!numbers.empty()) return numbers;
     for (const auto& c : target.color16f()) {
         for (int k = 0; k < 3; ++k) numbers.push_back(fromHalf(c[static_cast<std::size_t>(k)])[0]);
     }
+    if (!numbers.empty()) return numbers;
     for (const float c : target.colorR32f()) numbers.insert(numbers.end(), 3, c);
     if (!numbers.empty()) return numbers;
     for (const float z : target.depth()) numbers.insert(numbers.end(), 3, z);

@@ -1,5 +1,6 @@
-// What a frame did, counted while it ran. Every count but `blocksShaded` is the same for any number of threads and
-// lanes and any tile size but `trianglesBinned` and `tilesTouched`.
+// What a frame did, counted while it ran. Every count is the same for any number of threads; every one but
+// `blocksShaded` for any number of lanes; and every one but `tiles`, `tilesTouched` and `trianglesBinned` for any tile
+// size.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,7 @@ struct Statistics
     std::uint64_t quadsShaded = 0;      // 2x2 pixels with at least one live pixel
     std::uint64_t pixelsShaded = 0;     // live pixels: lanes whose result counted
     std::uint64_t pixelsColorless = 0;  // of those: drawn without the fragment program, as no target keeps its colours
-    std::uint64_t pixelsHidden = 0;     // covered, but failed the depth test before shading
+    std::uint64_t pixelsHidden = 0;     // covered, but failed the stencil or the depth test before shading
     std::uint64_t invalidColors = 0;    // pixels whose colour had a NaN or an infinity, which was replaced
 
     // Of draws with a stencil test into a target that has a stencil: samples that passed it and that did not.

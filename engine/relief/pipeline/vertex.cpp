@@ -79,6 +79,8 @@ void storeComponents(const DrawGeometry& draw, std::uint32_t first, std::uint32_
     }
 }
 
+namespace {
+
 // Vertices beyond a plane of the vertex program's own.
 void noteClipDistances(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, const Float* components)
 {
@@ -90,6 +92,8 @@ void noteClipDistances(const DrawGeometry& draw, std::uint32_t first, std::uint3
         draw.codes[first + i] = static_cast<std::uint16_t>(draw.codes[first + i] | vertex_code::beyondOwnPlane);
     }
 }
+
+}  // namespace
 
 void shadeVertices(const Draw& draw, std::uint32_t first, std::uint32_t count)
 {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "relief/lanes/environment.h"
 #include "relief/pipeline/frame_storage.h"
 
 namespace relief::inline RELIEF_WIDTH {
@@ -27,6 +28,7 @@ VertexLanes someVertices(Fields vertexData, std::size_t changed)
 // The fields of VertexData that an interpolator is made from, by name: those that change it when they change.
 std::vector<std::string> sourcesOf(const Draw& draw, const Slots& slots)
 {
+    const DefaultFloatingPoint environment;
     const ShadingScope aside;
     const Programs& programs = *draw.programs;
     VertexLanes plain = someVertices(programs.vertexData, programs.vertexData.size());
@@ -75,12 +77,6 @@ bool isThere(const std::vector<Draw>& draws, const char* name)
 }
 
 }  // namespace
-
-std::string semanticOf(const Field& field)
-{
-    const std::string_view name = field.name;
-    return field.name + (name == "TEXCOORD" || name == "COLOR" ? std::to_string(field.index) : "");
-}
 
 std::optional<Slots> slotsOf(const Draw& draw, const std::string& name)
 {

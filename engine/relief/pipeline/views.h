@@ -38,9 +38,6 @@ std::vector<View> viewsOf(const Frame& frame);
 // The view of a name; an error names those that there are.
 Expected<View> findView(const Frame& frame, const std::string& name);
 
-// "TEXCOORD1", "NORMAL".
-std::string semanticOf(const Field& field);
-
 // Where a draw's interpolated components hold an interpolator: its semantic, "normal" or "uv", maybe with ".x" behind.
 // "normal" is the first one of three components that is made from the mesh's normals alone, "uv" the first one of at
 // least two that is made from TEXCOORD0 alone.

@@ -144,7 +144,7 @@ Expected<std::span<const std::uint8_t>> within(std::span<const std::uint8_t> byt
                                                std::size_t offset, std::size_t stride, std::size_t size,
                                                std::size_t count)
 {
-    const std::size_t last = count > 0 ? (count - 1) * stride + size : 0;  // count and stride are below 2^31
+    const std::uint64_t last = count > 0 ? (std::uint64_t{count} - 1) * stride + size : 0;  // both are below 2^31
     if (offset <= bytes.size() && last <= bytes.size() - offset) return bytes.subspan(offset);
     return fail(field + ": " + std::to_string(count) + " elements from byte " + std::to_string(offset) + " take " +
                 std::to_string(last) + " bytes of a buffer view that has " + std::to_string(bytes.size()) +

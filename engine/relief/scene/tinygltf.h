@@ -1,5 +1,5 @@
-// tinygltf's declarations, as all of the engine sees them: nothing of stb, no pictures of other files. Included by two
-// sources only.
+// tinygltf's declarations, as all of the engine sees them: nothing of stb, no pictures of other files. Included by
+// sources of scene/ only.
 #pragma once
 
 #define TINYGLTF_NO_STB_IMAGE

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "relief/lanes/environment.h"
 #include "relief/lanes/math.h"
 #include "relief/texture/cube_face.h"
 
@@ -28,6 +29,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 glm::mat4 lookAt(const glm::vec3& position, const glm::vec3& target, const glm::vec3& up)
 {
+    const DefaultFloatingPoint environment;
     const glm::vec3 forward = glm::normalize(target - position);
     const glm::vec3 other = std::abs(up.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
     const bool alongUp = std::abs(glm::dot(forward, up)) > 0.9999f;
@@ -47,12 +49,14 @@ glm::mat4 lookThroughFace(const glm::vec3& position, int face)
 
 glm::mat4 perspective(float fieldOfView, float aspect, float nearPlane, float farPlane)
 {
+    const DefaultFloatingPoint environment;
     const float depth = farPlane == kInfinity ? 1.0f : farPlane / (farPlane - nearPlane);
     return projection(fieldOfView, aspect, depth, -depth * nearPlane);
 }
 
 glm::mat4 perspectiveReversed(float fieldOfView, float aspect, float nearPlane, float farPlane)
 {
+    const DefaultFloatingPoint environment;
     const float depth = farPlane == kInfinity ? 0.0f : -nearPlane / (farPlane - nearPlane);
     const float offset = farPlane == kInfinity ? nearPlane : -depth * farPlane;
     return projection(fieldOfView, aspect, depth, offset);
@@ -60,24 +64,28 @@ glm::mat4 perspectiveReversed(float fieldOfView, float aspect, float nearPlane, 
 
 glm::mat4 orthographic(float width, float height, float nearPlane, float farPlane)
 {
+    const DefaultFloatingPoint environment;
     const float depth = 1.0f / (farPlane - nearPlane);
     return {{2.0f / width, 0, 0, 0}, {0, 2.0f / height, 0, 0}, {0, 0, depth, 0}, {0, 0, -depth * nearPlane, 1}};
 }
 
 glm::mat4 rotationX(float degrees)
 {
+    const DefaultFloatingPoint environment;
     const float c = cos(degrees * kDegree), s = sin(degrees * kDegree);
     return {{1, 0, 0, 0}, {0, c, s, 0}, {0, -s, c, 0}, {0, 0, 0, 1}};
 }
 
 glm::mat4 rotationY(float degrees)
 {
+    const DefaultFloatingPoint environment;
     const float c = cos(degrees * kDegree), s = sin(degrees * kDegree);
     return {{c, 0, -s, 0}, {0, 1, 0, 0}, {s, 0, c, 0}, {0, 0, 0, 1}};
 }
 
 glm::mat4 rotationZ(float degrees)
 {
+    const DefaultFloatingPoint environment;
     const float c = cos(degrees * kDegree), s = sin(degrees * kDegree);
     return {{c, s, 0, 0}, {-s, c, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
 }

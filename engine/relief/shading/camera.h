@@ -11,8 +11,9 @@
 
 namespace relief {
 
-// viewFromWorld of a camera at `position`: +z is forward, towards `target`, and +y as near to `up` as it can be. Where
-// the camera looks along `up`, a horizontal axis takes its place. Not a number where target is position.
+// viewFromWorld of a camera at `position`: +z is forward, towards `target`, and +y as near to `up`, of unit length, as
+// it can be. Where the camera looks along `up`, a horizontal axis takes its place. Not a number where target is
+// position.
 glm::mat4 lookAt(const glm::vec3& position, const glm::vec3& target, const glm::vec3& up = {0.0f, 1.0f, 0.0f});
 
 // The same for a camera that looks through a face of the cube around it, 0..5, turned as cube maps are

@@ -36,7 +36,8 @@ struct Sample
 
 // Of GGX with v = n: with u evenly spread in 0..1 and q = 1 + (a^2 - 1) u, cos^2 of h is (1 - u) / q (Walter et al.
 // 2007), D is q^2 / (pi a^2), and the density of l is D / 4. The sample stands for 1 / (n density) of the sphere. The
-// level is that whose texels cover as much, a sixth of the sphere having side^2 texels of level 0.
+// level is that whose texels cover as much, a sixth of the sphere having side^2 texels of level 0. A half of u is at
+// the horizon of the roughest level: one sample would be none.
 std::vector<Sample> samplesOf(float perceptualRoughness, int count, int radianceSide)
 {
     if (perceptualRoughness == 0.0f) return {};
@@ -138,8 +139,8 @@ Expected<ImageFloat> prefilteredEnvironment(const CubeMap& radiance, const Prefi
     };
     if (settings.side < kLeastPrefilteredSide || settings.side > kMaxPrefilteredSide)
         return outside("side", settings.side, kLeastPrefilteredSide, kMaxPrefilteredSide);
-    if (settings.samples < 1 || settings.samples > kMaxPrefilterSamples)
-        return outside("samples", settings.samples, 1, kMaxPrefilterSamples);
+    if (settings.samples < kLeastPrefilterSamples || settings.samples > kMaxPrefilterSamples)
+        return outside("samples", settings.samples, kLeastPrefilterSamples, kMaxPrefilterSamples);
 
     std::vector<Level> levels;
     int rows = 0;

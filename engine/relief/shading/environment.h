@@ -19,12 +19,12 @@ namespace relief {
 
 inline constexpr int kLeastPrefilteredSide = 8;   // two levels
 inline constexpr int kMaxPrefilteredSide = 2048;  // six of them beside each other are an image file
-inline constexpr int kMaxPrefilterSamples = 65536;
+inline constexpr int kLeastPrefilterSamples = 2, kMaxPrefilterSamples = 65536;
 
 struct PrefilterSettings
 {
     int side = 128;      // of level 0, kLeastPrefilteredSide..kMaxPrefilteredSide
-    int samples = 1024;  // directions for each texel, 1..kMaxPrefilterSamples
+    int samples = 1024;  // directions for each texel, kLeastPrefilterSamples..kMaxPrefilterSamples
 };
 
 // The levels of such a chain: from `side` down to the last of at least 4 texels. The roughest one is smooth, and 4

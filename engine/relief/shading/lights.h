@@ -159,17 +159,6 @@ inline float3 ShadeSH9(const SphericalHarmonics& sh, const float3& normal)
 
 // Surroundings in which exactly `sky` arrives from above, `ground` from below and `equator` at every upright surface:
 // equator + (sky - ground) / 2 * y + ((sky + ground) / 2 - equator) * y^2, with y^2 = (1 - z^2 - (x^2 - y^2)) / 2.
-inline SphericalHarmonics gradientSurroundings(const glm::vec3& sky, const glm::vec3& equator, const glm::vec3& ground)
-{
-    SphericalHarmonics sh;
-    for (int c = 0; c < 3; ++c) {
-        const float slope = (sky[c] - ground[c]) * 0.5f;
-        const float half = ((sky[c] + ground[c]) * 0.5f - equator[c]) * 0.5f;
-        sh.A[c] = float4(0.0f, slope, 0.0f, equator[c] + half);
-        sh.B[c] = float4(0.0f, 0.0f, -half, 0.0f);
-        sh.C[c] = -half;
-    }
-    return sh;
-}
+SphericalHarmonics gradientSurroundings(const glm::vec3& sky, const glm::vec3& equator, const glm::vec3& ground);
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -45,14 +45,6 @@ inline glm::mat3 normalMatrix(const glm::mat3& m)
     return {glm::cross(m[1], m[2]) * sign, glm::cross(m[2], m[0]) * sign, glm::cross(m[0], m[1]) * sign};
 }
 
-inline ObjectTransform::ObjectTransform(const glm::mat4& clipFromWorld, const glm::mat4& world)
-    : clipFromObject(broadcast(clipFromWorld * world)),
-      worldFromObject(broadcast(world)),
-      normalFromObject(broadcast(normalMatrix(glm::mat3(world)))),
-      unity_WorldTransformParams(0.0f, 0.0f, 0.0f, mirrorSign(world))
-{
-}
-
 inline float4 UnityObjectToClipPos(const ObjectTransform& object, const float4& position)
 {
     return mul(object.clipFromObject, position);

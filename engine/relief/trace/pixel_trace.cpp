@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "relief/bits.h"
+#include "relief/lanes/environment.h"
 #include "relief/pipeline/edge_function.h"
 #include "relief/pipeline/exchange.h"
 #include "relief/pipeline/line.h"
@@ -348,9 +349,7 @@ private:
         const bool passesStencil = !usesStencil || any(testStencil(draw.state.stencil, face, stencil));
         const bool passesDepth = any(compareBy(depthTest, Float(outcome.depth), Float(words.depth)));
         const bool kept = isKept(draw, s, itsTile.samples().count);
-        const bool testsLate =
-            draw.programs->outputs.depth ||
-            (usesStencil && (draw.programs->discards || draw.state.alphaToCoverage || draw.programs->outputs.coverage));
+        const bool testsLate = draw.programs->outputs.depth || (usesStencil && decidesCoverage(draw));
         const bool isCovered = (covered >> s & 1u) != 0;
         if (!isCovered) {
             outcome.verdict = Verdict::missed;
@@ -633,6 +632,7 @@ Expected<PixelTrace> tracePixel(Frame& frame, int x, int y)
                     std::to_string(target.width()) + "x" + std::to_string(target.height()) +
                     ", its upper left pixel 0,0");
     }
+    const DefaultFloatingPoint environment;  // the tile is drawn on this thread
     storage.prepare();
     PixelFollower follower(storage, x, y);
     {

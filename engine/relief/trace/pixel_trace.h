@@ -131,8 +131,9 @@ struct PixelTrace
     std::array<std::uint8_t, 4> stored{};    // the same as bytes, of an 8-bit format
 };
 
-// Runs the frame's tile at pixel (x, y), and listens; the target's other tiles stay as they are. An error where there
-// is no such pixel, or where the trace is not what the frame did.
+// Draws the frame's tile at pixel (x, y) once more, and listens; the target's other tiles stay as they are. Of a frame
+// that does not clear all of its target the tile is drawn onto what is there: trace such a one before it has run. An
+// error where there is no such pixel, or where the trace is not what the frame did.
 Expected<PixelTrace> tracePixel(Frame& frame, int x, int y);
 
 }  // namespace relief::inline RELIEF_WIDTH::trace

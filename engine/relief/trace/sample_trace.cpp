@@ -3,8 +3,6 @@
 #include "relief/trace/sample_trace.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 
 #include "relief/bits.h"
 #include "relief/hlsl/derivatives.h"

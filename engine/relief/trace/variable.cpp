@@ -1,7 +1,6 @@
 #include "relief/trace/variable.h"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <mutex>

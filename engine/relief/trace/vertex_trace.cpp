@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "relief/lanes/environment.h"
 #include "relief/pipeline/frame_storage.h"
 
 namespace relief::inline RELIEF_WIDTH::trace {
@@ -24,6 +25,7 @@ Expected<VertexTrace> traceVertex(Frame& frame, int drawNumber, std::uint32_t ve
                     " to " + std::to_string(g.firstVertex + g.verticesPerInstance - 1) + ", and not " +
                     std::to_string(vertex));
     }
+    const DefaultFloatingPoint environment;
     storage.prepare();
     storage.shadeVertices();
 
