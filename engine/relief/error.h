@@ -1,6 +1,7 @@
 // What every function of the engine that can fail returns: a value, or one line that names the file, the field and the
-// remedy. The engine never prints, exits or throws; its callers decide what to do with the line. Where memory ends
-// that no caller chose the size of, such as a vector's, std::bad_alloc ends the program, as everywhere.
+// remedy. The engine never prints, exits or throws; its callers decide what to do with the line. Running out
+// of memory is such an error where the caller chose a size (a target, a file); elsewhere std::bad_alloc ends the
+// program.
 #pragma once
 
 #include <string>
