@@ -445,7 +445,7 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
             const unsigned live = static_cast<unsigned>(random.next()) & kAllLanes;
             alignas(Float) Channels color;
             for (float(&channel)[kLanes] : color) Float(0.75f).store(channel);
-            withFormat(format, [&]<Format f>() { ColorWriter<f>().write(tile.color<f>(0, 0), color, live); });
+            withFormat(format, [&]<Format f>() { ColorWriter<f>(true).write(tile.color<f>(0, 0), color, live); });
             tile.store(memory);
             Framebuffer cleared = makeTarget(16, 16, format);
             Tile clean(16, TargetMemory(cleared));
@@ -496,26 +496,28 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
 
 TEST_CASE("output merger: a colour that comes again is cleaned where other pixels are live (S-951)")
 {
-    // A NaN in lane 0 does not count while lane 0 is not live, and does when it is.
-    alignas(Float) Channels color;
-    for (float(&channel)[kLanes] : color) Float(0.5f).store(channel);
-    color[0][0] = std::numeric_limits<float>::quiet_NaN();
-    std::int32_t stored[4 * kLanes] = {};
-    ColorWriter<Format::rgba32f> writer;
-    CHECK(writer.write(stored, color, kAllLanes & ~1u) == 0);
-    CHECK(stored[0] == 0);
-    CHECK(writer.write(stored, color, 1u) == 1);
-    CHECK(stored[0] == 0);  // NaN becomes 0
-    CHECK(stored[1] == std::bit_cast<std::int32_t>(0.5f));
+    for (const bool looksForSame : {false, true}) {
+        // A NaN in lane 0 does not count while lane 0 is not live, and does when it is.
+        alignas(Float) Channels color;
+        for (float(&channel)[kLanes] : color) Float(0.5f).store(channel);
+        color[0][0] = std::numeric_limits<float>::quiet_NaN();
+        std::int32_t stored[4 * kLanes] = {};
+        ColorWriter<Format::rgba32f> writer(looksForSame);
+        CHECK(writer.write(stored, color, kAllLanes & ~1u) == 0);
+        CHECK(stored[0] == 0);
+        CHECK(writer.write(stored, color, 1u) == 1);
+        CHECK(stored[0] == 0);  // NaN becomes 0
+        CHECK(stored[1] == std::bit_cast<std::int32_t>(0.5f));
 
-    // And the same colour twice is stored twice, wherever it lies.
-    alignas(Float) Channels plain, again;
-    for (float(&channel)[kLanes] : plain) Float(0.25f).store(channel);
-    for (float(&channel)[kLanes] : again) Float(0.25f).store(channel);
-    std::int32_t other[4 * kLanes] = {};
-    CHECK(writer.write(stored, plain, kAllLanes) == 0);
-    CHECK(writer.write(other, again, kAllLanes) == 0);
-    CHECK(std::equal(stored, stored + 4 * kLanes, other));
+        // And the same colour twice is stored twice, wherever it lies.
+        alignas(Float) Channels plain, again;
+        for (float(&channel)[kLanes] : plain) Float(0.25f).store(channel);
+        for (float(&channel)[kLanes] : again) Float(0.25f).store(channel);
+        std::int32_t other[4 * kLanes] = {};
+        CHECK(writer.write(stored, plain, kAllLanes) == 0);
+        CHECK(writer.write(other, again, kAllLanes) == 0);
+        CHECK(std::equal(stored, stored + 4 * kLanes, other));
+    }
 }
 
 TEST_CASE("output merger: depth-tested scenes equal pixel-by-pixel comparison (S-905)")

@@ -30,7 +30,6 @@ constexpr int kBlocksOfLargeTriangle = 64;
 struct Counts
 {
     unsigned blocks = 0, quadPixels = 0, pixels = 0, hidden = 0, colorless = 0, invalid = 0;
-    unsigned whole = 0;  // blocks of which all pixels are live: in none of the pixels above
     unsigned stencilTested = 0, stencilPassed = 0;
 };
 
@@ -187,11 +186,6 @@ void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsign
     block.live = live;
     block.index = index;
     block.covered = covered;
-    if (live == kAllLanes) {
-        block.quads = kAllLanes;
-        ++counts.whole;
-        return;
-    }
     block.quads = wholeQuads(leavesOut::hidden ? live : covered.coverage);
     counts.quadPixels += static_cast<unsigned>(countBits(block.quads));
     counts.pixels += static_cast<unsigned>(countBits(live));
@@ -363,7 +357,7 @@ const Channels& colorOf(const ShadedBlock& block, int target)
 // Returns how many pixels had a NaN or an infinity. By itself, so that its numbers stay in registers.
 template <Format format, bool severalSamples>
 [[gnu::noinline, gnu::flatten]] unsigned mergeBlocks(std::span<const ShadedBlock> blocks, int target, Blend blend,
-                                                     Tile& tile)
+                                                     bool isLarge, Tile& tile)
 {
     std::int32_t* const plane = tile.color<format>(target, 0);
     unsigned allInvalid = 0;
@@ -371,7 +365,7 @@ template <Format format, bool severalSamples>
         for (const ShadedBlock& block : blocks) allInvalid += static_cast<unsigned>(merge(block));
     };
     if (blend == Blend::off) {
-        ColorWriter<format> writer;
+        ColorWriter<format> writer(isLarge);
         forEach([&](const ShadedBlock& block) {
             const int invalid = writer.set(colorOf(block, target), block.live);
             forSamples<format, severalSamples>(tile, plane, block,
@@ -434,8 +428,8 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
 
 template <class State>
 void shadeBlocksIn(const State& state, const Draw& draw, std::span<const CoveredBlock> blocks,
-                   const SampleCoverage* samples, const TriangleBatch& batch, const TriangleChunk& chunk, Tile& tile,
-                   Counts& counts)
+                   const SampleCoverage* samples, const TriangleBatch& batch, const TriangleChunk* const* chunkOf,
+                   Tile& tile, Counts& counts)
 {
     constexpr bool severalSamples = State::severalSamples;
     const unsigned targets = draw.state.colorWrite ? state.outputs.targets & tile.colors() : 0;
@@ -461,7 +455,8 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
             for (; next != end; ++next) {
                 if (next->triangle != triangle.lane) {
                     triangle.set(draw, batch, next->triangle);
-                    corners[next->triangle] = cornersOf(draw, chunk, *batch.triangle[triangle.lane], triangle.isFront);
+                    corners[next->triangle] =
+                        cornersOf(draw, *chunkOf[triangle.lane], *batch.triangle[triangle.lane], triangle.isFront);
                     for (const float* const components : corners[next->triangle].components)
                         __builtin_prefetch(components);  // the program asks for them soon
                 }
@@ -483,7 +478,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
         if (state.decides) testLate(state, draw, triangle, group[0], tile, counts);
         const auto merge = [&](int target) {
             withFormat(tile.colorFormat(target), [&]<Format format>() {
-                counts.invalid += mergeBlocks<format, severalSamples>(shaded, target, draw.state.blend, tile);
+                counts.invalid += mergeBlocks<format, severalSamples>(shaded, target, draw.state.blend, isLarge, tile);
             });
         };
         if constexpr (State::hasOneTarget) {
@@ -492,8 +487,6 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
             for (unsigned rest = targets; rest != 0; rest &= rest - 1) merge(std::countr_zero(rest));
         }
     }
-    counts.pixels += counts.whole * kLanes;
-    counts.quadPixels += counts.whole * kLanes;
     if (!runsProgram) counts.colorless = counts.pixels;
     if (!state.depthWrite) return;
     updateBounds(state.depthTest, 0.0f, 1.0f, false, tile.wholeBounds());  // whatever was written
@@ -503,29 +496,29 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
 // By itself, so that the usual ways below have the registers.
 [[gnu::noinline, gnu::flatten]] Counts shadeSamples(const Draw& draw, std::span<const CoveredBlock> blocks,
                                                     const SampleCoverage* samples, const TriangleBatch& batch,
-                                                    const TriangleChunk& chunk, Tile& tile)
+                                                    const TriangleChunk* const* chunkOf, Tile& tile)
 {
     Counts counts;
-    shadeBlocksIn(AnyState<true>(draw, tile), draw, blocks, samples, batch, chunk, tile, counts);
+    shadeBlocksIn(AnyState<true>(draw, tile), draw, blocks, samples, batch, chunkOf, tile, counts);
     return counts;
 }
 
 }  // namespace
 
 [[gnu::flatten]] void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const SampleCoverage* samples,
-                                  const TriangleBatch& batch, const TriangleChunk& chunk, Tile& tile,
+                                  const TriangleBatch& batch, const TriangleChunk* const* chunkOf, Tile& tile,
                                   Statistics& statistics)
 {
     Counts counts;
     const AnyState<false> state(draw, tile);
     if (tile.samples().isMultiple()) {
-        counts = shadeSamples(draw, blocks, samples, batch, chunk, tile);
+        counts = shadeSamples(draw, blocks, samples, batch, chunkOf, tile);
     } else if (state.isUsual() && state.readsEdges) {
-        shadeBlocksIn(UsualState<true>(), draw, blocks, nullptr, batch, chunk, tile, counts);
+        shadeBlocksIn(UsualState<true>(), draw, blocks, nullptr, batch, chunkOf, tile, counts);
     } else if (state.isUsual()) {
-        shadeBlocksIn(UsualState<false>(), draw, blocks, nullptr, batch, chunk, tile, counts);
+        shadeBlocksIn(UsualState<false>(), draw, blocks, nullptr, batch, chunkOf, tile, counts);
     } else {
-        shadeBlocksIn(state, draw, blocks, nullptr, batch, chunk, tile, counts);
+        shadeBlocksIn(state, draw, blocks, nullptr, batch, chunkOf, tile, counts);
     }
     shading.activeLanes = kAllLanes;
     statistics.blocksShaded += counts.blocks;

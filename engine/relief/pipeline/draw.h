@@ -55,9 +55,9 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
 // Vertices first ... first + count - 1 of all instances, into the geometry's arrays.
 void shadeVertices(const Draw& draw, std::uint32_t first, std::uint32_t count);
 
-// Covered blocks of one tile, in order; all triangles belong to this draw, this chunk and this batch. `samples` of each
-// block, where the tile has several a pixel.
+// Covered blocks of one tile, in order; all triangles belong to this draw and this batch. `samples` of each block,
+// where the tile has several a pixel; `chunkOf` each triangle of the batch.
 void shadeBlocks(const Draw& draw, std::span<const CoveredBlock> blocks, const SampleCoverage* samples,
-                 const TriangleBatch& batch, const TriangleChunk& chunk, Tile& tile, Statistics& statistics);
+                 const TriangleBatch& batch, const TriangleChunk* const* chunkOf, Tile& tile, Statistics& statistics);
 
 }  // namespace relief::inline RELIEF_WIDTH

@@ -363,7 +363,7 @@ void Frame::Storage::drawTile(const Part& part, int tileIndex, Worker& worker)
     if (!touched[tile]) ++worker.statistics.tilesTouched;
     touched[tile] = 1;
     shading.fetches = {};
-    for (std::size_t c = part.first; c < part.last; ++c) drawBin(chunks[c], tileIndex, worker);
+    drawTriangles(part, tileIndex, worker);
     worker.statistics.fetches += shading.fetches;
     if (part.isLast) {
         worker.tile->store(part.memory);
@@ -372,26 +372,39 @@ void Frame::Storage::drawTile(const Part& part, int tileIndex, Worker& worker)
     }
 }
 
-void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker)
+void Frame::Storage::drawTriangles(const Part& part, int tileIndex, Worker& worker)
 {
     worker.blocks.resize(coveredBlocks());
     if (worker.tile->samples().isMultiple()) worker.samples.resize(coveredBlocks());
     const auto tile = static_cast<std::size_t>(tileIndex);
-    const std::uint32_t last = chunk.binStart[tile + 1];
     const std::size_t most = follower == nullptr ? kLanes : 1;
-    for (std::uint32_t next = chunk.binStart[tile]; next < last;) {
-        // The next triangles, as far as they are of one draw.
-        const std::uint32_t drawIndex = chunk.triangles[chunk.sorted[next]].drawIndex();
+    // The tile's triangles, one chunk after the other; of this one sorted[next] ... sorted[last - 1] are left.
+    const Chunk* chunk = nullptr;
+    std::size_t nextChunk = part.first;
+    std::uint32_t next = 0, last = 0;
+    const auto hasMore = [&] {
+        for (; next == last && nextChunk != part.last; ++nextChunk) {
+            chunk = &chunks[nextChunk];
+            next = chunk->binStart[tile];
+            last = chunk->binStart[tile + 1];
+        }
+        return next != last;
+    };
+    while (hasMore()) {
+        // The next ones, as far as they are of one draw.
+        const std::uint32_t drawIndex = chunk->triangles[chunk->sorted[next]].drawIndex();
         const Triangle* triangles[kLanes];
+        const TriangleChunk* chunkOf[kLanes];
         std::size_t count = 0;
-        for (; count < most && next < last; ++count, ++next) {
-            triangles[count] = &chunk.triangles[chunk.sorted[next]];
+        for (; count < most && hasMore(); ++count, ++next) {
+            triangles[count] = &chunk->triangles[chunk->sorted[next]];
+            chunkOf[count] = chunk;
             if (triangles[count]->drawIndex() != drawIndex) break;
         }
         const Draw& draw = draws[drawIndex];
         // Triangles of a bin lie anywhere in the chunk: the ones after these are asked for in time.
         for (std::uint32_t i = next; i < std::min<std::uint32_t>(last, next + kLanes); ++i)
-            __builtin_prefetch(&chunk.triangles[chunk.sorted[i]]);
+            __builtin_prefetch(&chunk->triangles[chunk->sorted[i]]);
         const Rectangle clip = intersect(tilePixels(tileIndex), draw.geometry.bounds);
         TriangleBatch batch;
         batch.set({triangles, count}, clip, worker.tile->samples(), draw.state.depthBias);
@@ -399,7 +412,7 @@ void Frame::Storage::drawBin(const TriangleChunk& chunk, int tileIndex, Worker& 
         CoveredBlock* const blocks = worker.blocks.data();
         const CoveredBlock* const end = rasterise(batch, clip, blocks, worker.samples.data());
         if (end != blocks)
-            shadeBlocks(draw, {blocks, end}, worker.samples.data(), batch, chunk, *worker.tile, worker.statistics);
+            shadeBlocks(draw, {blocks, end}, worker.samples.data(), batch, chunkOf, *worker.tile, worker.statistics);
         if (follower != nullptr) follower->end(draw, *triangles[0], *worker.tile);
     }
 }

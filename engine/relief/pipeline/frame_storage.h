@@ -82,7 +82,7 @@ struct Frame::Storage
     void setUpAndBin(std::size_t firstChunk);
     void setUpAndBin(Chunk& chunk, const DrawGeometry* const* geometry, Statistics& statistics);
     void drawTile(const Part& part, int tileIndex, Worker& worker);
-    void drawBin(const TriangleChunk& chunk, int tileIndex, Worker& worker);
+    void drawTriangles(const Part& part, int tileIndex, Worker& worker);
 
     Rectangle tilePixels(int tileIndex) const
     {

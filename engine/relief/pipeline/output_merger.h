@@ -2,6 +2,8 @@
 // same way for a draw: next to nothing.
 #pragma once
 
+#include <algorithm>
+
 #include "relief/pipeline/format.h"
 #include "relief/pipeline/render_state.h"
 #include "relief/pipeline/tile.h"
@@ -87,15 +89,16 @@ inline bool isInFront(Compare compare, float nearest, float farthest, const Dept
     }
 }
 
-// After pixels between the two depths were tested and written. `whole`: every pixel of the block took part.
+// After pixels between the two depths were tested and written. `whole`: every pixel of the block took part. Minima and
+// maxima, not branches: nobody can foresee which triangle is nearer.
 inline void updateBounds(Compare compare, float nearest, float farthest, bool whole, DepthBounds& stored)
 {
     const bool keepsNearer = compare == Compare::less || compare == Compare::lessEqual;
     const bool keepsFarther = compare == Compare::greater || compare == Compare::greaterEqual;
-    if (keepsNearer && whole && farthest < stored.farthest) stored.farthest = farthest;
-    if (keepsFarther && whole && nearest > stored.nearest) stored.nearest = nearest;
-    if (!keepsNearer && farthest > stored.farthest) stored.farthest = farthest;
-    if (!keepsFarther && nearest < stored.nearest) stored.nearest = nearest;
+    if (keepsNearer && whole) stored.farthest = std::min(stored.farthest, farthest);
+    if (keepsFarther && whole) stored.nearest = std::max(stored.nearest, nearest);
+    if (!keepsNearer) stored.farthest = std::max(stored.farthest, farthest);
+    if (!keepsFarther) stored.nearest = std::min(stored.nearest, nearest);
 }
 
 inline float4 blendColors(Blend blend, const float4& source, const float4& destination)
@@ -180,6 +183,10 @@ template <Format format>
 class ColorWriter
 {
 public:
+    // `looks`: whether to look if a block has the colours of the one before. It pays in large triangles; in small ones
+    // the answer is a branch that cannot be foreseen.
+    explicit ColorWriter(bool looks) : looksForSame(looks) {}
+
     // A block's live pixels, a bit each, linear; `color` stays where it is until the next call. Returns how many of
     // them had a NaN or an infinity.
     int write(std::int32_t* words, const Channels& color, unsigned live)
@@ -193,16 +200,14 @@ public:
     int set(const Channels& color, unsigned live) { return isSame(color) ? 0 : encode(color, live); }
     void store(std::int32_t* words, unsigned live) const
     {
-        if (live == kAllLanes)
-            encoded.store(words);
-        else
-            encoded.store(words, Mask::fromBits(live), StoredColor<format>::load(words));
+        // Whole blocks, too: in small triangles a branch would cost more than what it leaves out.
+        encoded.store(words, Mask::fromBits(live), StoredColor<format>::load(words));
     }
 
 private:
     bool isSame(const Channels& color) const
     {
-        if (last == nullptr) return false;
+        if (!looksForSame || last == nullptr) return false;
         const auto same = [&](int i) { return asInt(Float::load(color[i])) == asInt(Float::load((*last)[i])); };
         return all(same(0) & same(1) & same(2) & same(3));
     }
@@ -223,6 +228,7 @@ private:
         return invalid;
     }
 
+    bool looksForSame;
     const Channels* last = nullptr;
     StoredColor<format> encoded;
 };

@@ -197,13 +197,13 @@ Tile::Tile(int tileSize, const TargetMemory& target)
       pattern(target.samples)
 {
     for (const Attachment& attachment : target.attachments) {
-        Plane plane = {attachment.format, nullptr};
-        plane.words = std::make_unique<std::int32_t[]>(wordCount(plane));
-        planes.push_back(std::move(plane));
+        Plane& plane = planes.emplace_back(Plane{attachment.format, {}});
+        plane.words.resize(
+            static_cast<std::size_t>(blockCount * kLanes * pattern->count * wordsPerPixel(plane.format)));
     }
     std::size_t colors = 0;
-    for (const Plane& plane : planes) {
-        std::int32_t* const words = plane.words.get();
+    for (Plane& plane : planes) {
+        std::int32_t* const words = plane.words.data();
         if (plane.format == Format::depth32f) depthWords = reinterpret_cast<float*>(words);
         if (plane.format == Format::stencil8) stencilWords = words;
         if (isColor(plane.format)) mColorPlanes[colors++] = {plane.format, words};
@@ -217,11 +217,6 @@ bool Tile::isFor(const TargetMemory& target) const
     return pattern == target.samples &&
            std::equal(planes.begin(), planes.end(), target.attachments.begin(), target.attachments.end(),
                       [](const Plane& plane, const Attachment& a) { return plane.format == a.format; });
-}
-
-std::size_t Tile::wordCount(const Plane& plane) const
-{
-    return static_cast<std::size_t>(blockCount * kLanes * pattern->count * wordsPerPixel(plane.format));
 }
 
 void Tile::moveTo(int x, int y)
@@ -254,43 +249,43 @@ void Tile::begin(int x, int y, const TargetMemory& target, const Clear& clear)
     }
 }
 
-void Tile::fill(const Plane& plane, const std::int32_t (&value)[4])
+void Tile::fill(Plane& plane, const std::int32_t (&value)[4])
 {
     const int words = wordsPerPixel(plane.format), blocks = blockCount * pattern->count;
     if (words == 1) {
-        std::fill_n(plane.words.get(), blocks * kLanes, value[0]);
+        std::fill_n(plane.words.data(), blocks * kLanes, value[0]);
         return;
     }
     for (int block = 0; block < blocks; ++block) {
         for (int c = 0; c < words; ++c)
-            std::fill_n(&plane.words[static_cast<std::size_t>((block * words + c) * kLanes)], kLanes, value[c]);
+            std::fill_n(plane.words.data() + (block * words + c) * kLanes, kLanes, value[c]);
     }
 }
 
-void Tile::load(const Plane& plane, const TargetMemory& target, std::size_t attachment)
+void Tile::load(Plane& plane, const TargetMemory& target, std::size_t attachment)
 {
     const int words = wordsPerPixel(plane.format);
     const auto loadPlane = words == 1 ? loadBlocks<1> : words == 2 ? loadBlocks<2> : loadBlocks<4>;
-    std::int32_t* to = plane.words.get();
+    std::int32_t* to = plane.words.data();
     if (pattern->isMultiple()) {
-        onePerPixel.assign(static_cast<std::size_t>(blockCount * kLanes * words), 0);
+        onePerPixel.resize(static_cast<std::size_t>(blockCount * kLanes * words));
         to = onePerPixel.data();
     }
     loadPlane(to, blocksWide, tilePixels(target, target.shown, attachment, originX, originY, size));
     for (int k = 0; k < blockCount * pattern->count && pattern->isMultiple(); ++k)
-        std::copy_n(to + k / pattern->count * kLanes * words, kLanes * words, plane.words.get() + k * kLanes * words);
+        std::copy_n(to + k / pattern->count * kLanes * words, kLanes * words, plane.words.data() + k * kLanes * words);
 }
 
 // What is kept of several samples, block by block: the mean of colours, the first one's depth and stencil.
 const std::int32_t* Tile::resolved(const Plane& plane)
 {
-    if (!pattern->isMultiple()) return plane.words.get();
+    if (!pattern->isMultiple()) return plane.words.data();
     const int count = pattern->count;
-    onePerPixel.resize(wordCount(plane) / static_cast<std::size_t>(count));
+    onePerPixel.resize(plane.words.size() / static_cast<std::size_t>(count));
     withFormat(plane.format, [&]<Format format>() {
         constexpr int words = kLanes * wordsPerPixel(format);
         for (int block = 0; block < blockCount; ++block) {
-            const std::int32_t* from = plane.words.get() + block * count * words;
+            const std::int32_t* from = plane.words.data() + block * count * words;
             std::int32_t* to = onePerPixel.data() + block * words;
             if constexpr (isColor(format)) {
                 resolveColor<format>(from, count, to);
@@ -342,7 +337,8 @@ void Tile::store(const TargetMemory& target)
 std::vector<std::int32_t> Tile::save() const
 {
     std::vector<std::int32_t> saved;
-    for (const Plane& plane : planes) saved.insert(saved.end(), &plane.words[0], &plane.words[0] + wordCount(plane));
+    for (const Plane& plane : planes)
+        saved.insert(saved.end(), plane.words.data(), plane.words.data() + plane.words.size());
     return saved;
 }
 
@@ -351,9 +347,9 @@ void Tile::restore(int x, int y, const std::vector<std::int32_t>& saved)
     moveTo(x, y);
     seen = {};
     const std::int32_t* from = saved.data();
-    for (const Plane& plane : planes) {
-        std::copy_n(from, wordCount(plane), plane.words.get());
-        from += wordCount(plane);
+    for (Plane& plane : planes) {
+        std::copy_n(from, plane.words.size(), plane.words.data());
+        from += plane.words.size();
     }
     if (!hasDepth()) return;
     setBounds();

@@ -46,6 +46,24 @@ struct TargetMemory
     bool movesPixels(const Clear& clear) const;
 };
 
+// Words of lanes, a vector after the other, each where it is read at once: a vector that lies in two cache lines takes
+// twice as long.
+class LaneWords
+{
+public:
+    void resize(std::size_t words) { vectors.resize(words / kLanes); }
+    std::size_t size() const { return vectors.size() * kLanes; }
+    std::int32_t* data() { return vectors.data()->words; }
+    const std::int32_t* data() const { return vectors.data()->words; }
+
+private:
+    struct alignas(Int) Vector
+    {
+        std::int32_t words[kLanes];
+    };
+    std::vector<Vector> vectors;
+};
+
 class Tile
 {
 public:
@@ -105,13 +123,12 @@ private:
     struct Plane
     {
         Format format;
-        std::unique_ptr<std::int32_t[]> words;
+        LaneWords words;
     };
 
-    void fill(const Plane& plane, const std::int32_t (&value)[4]);
-    void load(const Plane& plane, const TargetMemory& target, std::size_t attachment);
+    void fill(Plane& plane, const std::int32_t (&value)[4]);
+    void load(Plane& plane, const TargetMemory& target, std::size_t attachment);
     const std::int32_t* resolved(const Plane& plane);
-    std::size_t wordCount(const Plane& plane) const;
     void setBounds();
 
     // Blocks counted row by row, from the target's first pixel on, as if it were as wide as the tile.
@@ -136,7 +153,7 @@ private:
     unsigned mColors = 0;
     float* depthWords = nullptr;
     std::int32_t* stencilWords = nullptr;
-    std::vector<std::int32_t> onePerPixel;  // room, where there are several samples
+    LaneWords onePerPixel;  // room, where there are several samples
     std::unique_ptr<DepthBounds[]> mBounds;
     DepthBounds mWholeBounds{};
 };
