@@ -496,13 +496,13 @@ TEST_CASE("output merger: only live lanes are written (S-960)")
 
 TEST_CASE("output merger: a colour that comes again is cleaned where other pixels are live (S-951)")
 {
-    for (const bool looksForSame : {false, true}) {
+    for (const bool areOfLarge : {false, true}) {
         // A NaN in lane 0 does not count while lane 0 is not live, and does when it is.
         alignas(Float) Channels color;
         for (float(&channel)[kLanes] : color) Float(0.5f).store(channel);
         color[0][0] = std::numeric_limits<float>::quiet_NaN();
         std::int32_t stored[4 * kLanes] = {};
-        ColorWriter<Format::rgba32f> writer(looksForSame);
+        ColorWriter<Format::rgba32f> writer(areOfLarge);
         CHECK(writer.write(stored, color, kAllLanes & ~1u) == 0);
         CHECK(stored[0] == 0);
         CHECK(writer.write(stored, color, 1u) == 1);

@@ -30,7 +30,16 @@ constexpr int kBlocksOfLargeTriangle = 64;
 struct Counts
 {
     unsigned blocks = 0, quadPixels = 0, pixels = 0, hidden = 0, colorless = 0, invalid = 0;
+    unsigned whole = 0;  // blocks of which all pixels are live: in none of the pixels above
     unsigned stencilTested = 0, stencilPassed = 0;
+};
+
+// What holds for all of a run of blocks.
+struct Run
+{
+    bool isLarge;    // its triangles are
+    unsigned whole;  // live lanes worth a branch: all, as they are in the next block, too, or in small triangles none
+    DepthBounds inTile;  // of all blocks of the tile together, where that is worth a look
 };
 
 // What of a draw's state a block asks for: any, with one sample a pixel or several, or the usual one, of which the
@@ -181,29 +190,34 @@ bool hide(const CoveredBlock& covered, Counts& counts)
 }
 
 // A block that is to be shaded.
-void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsigned live, Counts& counts)
+void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsigned live, unsigned whole, Counts& counts)
 {
     block.live = live;
     block.index = index;
     block.covered = covered;
+    if (live == whole) {
+        block.quads = kAllLanes;
+        ++counts.whole;
+        return;
+    }
     block.quads = wholeQuads(leavesOut::hidden ? live : covered.coverage);
     counts.quadPixels += static_cast<unsigned>(countBits(block.quads));
     counts.pixels += static_cast<unsigned>(countBits(live));
     counts.hidden += static_cast<unsigned>(countBits(covered.coverage & ~live));
 }
 
-// Before the program runs: which pixels pass the depth test. `inTile`: bounds of all blocks together. Their depth is
-// written here, too, unless the program may throw them away afterwards. Returns whether there is anything to shade.
+// Before the program runs: which pixels pass the depth test. Their depth is written here, too, unless the program may
+// throw them away afterwards. Returns whether there is anything to shade.
 template <class State>
 bool testEarly(const State& state, const TriangleInTile<false>& triangle, const CoveredBlock& covered,
-               const SampleCoverage* /* the one sample's is the block's */, const DepthBounds& inTile,
-               ShadedBlock& block, Tile& tile, Counts& counts)
+               const SampleCoverage* /* the one sample's is the block's */, const Run& run, ShadedBlock& block,
+               Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
     const unsigned coverage = covered.coverage;
     DepthBounds& bounds = tile.bounds(index);
-    if (isBehind(state, weights, inTile) || isBehind(state, weights, bounds)) return hide(covered, counts);
+    if (isBehind(state, weights, run.inTile) || isBehind(state, weights, bounds)) return hide(covered, counts);
     unsigned live = coverage;
     if (state.usesDepth || state.usesStencil || state.readsEdges) {
         Float edge[3];
@@ -231,19 +245,19 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
         if (state.readsEdges) storeEdges(edge, block.edge);
         if (state.readsCentroids) storeEdges(edge, block.centroid);
     }
-    setBlock(block, covered, index, live, counts);
+    setBlock(block, covered, index, live, run.whole, counts);
     return true;
 }
 
 // The same where a pixel has several samples, each with a depth of its own.
 template <class State>
 bool testEarly(const State& state, const TriangleInTile<true>& triangle, const CoveredBlock& covered,
-               const SampleCoverage* samples, const DepthBounds& inTile, ShadedBlock& block, Tile& tile, Counts& counts)
+               const SampleCoverage* samples, const Run& run, ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
     DepthBounds& bounds = tile.bounds(index);
-    if (isBehind(state, weights, inTile) || isBehind(state, weights, bounds)) return hide(covered, counts);
+    if (isBehind(state, weights, run.inTile) || isBehind(state, weights, bounds)) return hide(covered, counts);
     Float edge[3];
     triangle.edges.at(x, y, edge);
     storeEdges(edge, block.edge);
@@ -274,7 +288,7 @@ bool testEarly(const State& state, const TriangleInTile<true>& triangle, const C
     if (leavesOut::hidden && live == 0) return hide(covered, counts);
     if (everywhere == kAllLanes && state.depthWrite && !state.decides && !state.usesStencil)
         updateBounds(state.depthTest, weights.nearest, weights.farthest, true, bounds);
-    setBlock(block, covered, index, live, counts);
+    setBlock(block, covered, index, live, run.whole, counts);
     block.covered.coverage = static_cast<std::uint16_t>(inside);
     return true;
 }
@@ -437,7 +451,8 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     const bool mayShare = leavesOut::emptyQuads && draw.programs->shadeShared != nullptr && !state.decides;
     const bool isLarge = static_cast<int>(blocks.size()) >= kBlocksOfLargeTriangle * countBits(batch.visible);
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    const DepthBounds inTile = isLarge ? tile.wholeBounds() : DepthBounds{-infinity, infinity};
+    const Run run = {isLarge, isLarge ? kAllLanes : ~0u,
+                     isLarge ? tile.wholeBounds() : DepthBounds{-infinity, infinity}};
     std::array<ShadedBlock, kBlocksPerGroup> group;
     std::array<MoreOutputs, State::hasOneTarget ? 0 : kBlocksPerGroup> more;
     if constexpr (!State::hasOneTarget) {
@@ -461,7 +476,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
                         __builtin_prefetch(components);  // the program asks for them soon
                 }
                 const SampleCoverage* of = severalSamples ? samples + (next - blocks.begin()) : nullptr;
-                if (testEarly(state, triangle, *next, of, inTile, *free, tile, counts)) ++free;
+                if (testEarly(state, triangle, *next, of, run, *free, tile, counts)) ++free;
             }
         }
         const std::span<ShadedBlock> shaded(group.data(), free);
@@ -478,7 +493,8 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
         if (state.decides) testLate(state, draw, triangle, group[0], tile, counts);
         const auto merge = [&](int target) {
             withFormat(tile.colorFormat(target), [&]<Format format>() {
-                counts.invalid += mergeBlocks<format, severalSamples>(shaded, target, draw.state.blend, isLarge, tile);
+                counts.invalid +=
+                    mergeBlocks<format, severalSamples>(shaded, target, draw.state.blend, run.isLarge, tile);
             });
         };
         if constexpr (State::hasOneTarget) {
@@ -487,10 +503,12 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
             for (unsigned rest = targets; rest != 0; rest &= rest - 1) merge(std::countr_zero(rest));
         }
     }
+    counts.pixels += counts.whole * kLanes;
+    counts.quadPixels += counts.whole * kLanes;
     if (!runsProgram) counts.colorless = counts.pixels;
     if (!state.depthWrite) return;
     updateBounds(state.depthTest, 0.0f, 1.0f, false, tile.wholeBounds());  // whatever was written
-    if (isLarge) tile.refreshWholeBounds();
+    if (run.isLarge) tile.refreshWholeBounds();
 }
 
 // By itself, so that the usual ways below have the registers.

@@ -183,9 +183,9 @@ template <Format format>
 class ColorWriter
 {
 public:
-    // `looks`: whether to look if a block has the colours of the one before. It pays in large triangles; in small ones
-    // the answer is a branch that cannot be foreseen.
-    explicit ColorWriter(bool looks) : looksForSame(looks) {}
+    // `areOfLarge`: whether the blocks are of large triangles. In small ones a block says nothing about the next one,
+    // and to look for the same colours, or for whole blocks, costs more than it leaves out.
+    explicit ColorWriter(bool areOfLarge) : isLarge(areOfLarge), whole(areOfLarge ? kAllLanes : ~0u) {}
 
     // A block's live pixels, a bit each, linear; `color` stays where it is until the next call. Returns how many of
     // them had a NaN or an infinity.
@@ -200,14 +200,16 @@ public:
     int set(const Channels& color, unsigned live) { return isSame(color) ? 0 : encode(color, live); }
     void store(std::int32_t* words, unsigned live) const
     {
-        // Whole blocks, too: in small triangles a branch would cost more than what it leaves out.
-        encoded.store(words, Mask::fromBits(live), StoredColor<format>::load(words));
+        if (live == whole)
+            encoded.store(words);
+        else
+            encoded.store(words, Mask::fromBits(live), StoredColor<format>::load(words));
     }
 
 private:
     bool isSame(const Channels& color) const
     {
-        if (!looksForSame || last == nullptr) return false;
+        if (last == nullptr) return false;
         const auto same = [&](int i) { return asInt(Float::load(color[i])) == asInt(Float::load((*last)[i])); };
         return all(same(0) & same(1) & same(2) & same(3));
     }
@@ -217,7 +219,7 @@ private:
     {
         float4 color = loadChannels(channels);
         int invalid = 0;
-        last = &channels;
+        last = isLarge ? &channels : nullptr;
         if (any(mayBeInvalid(color))) [[unlikely]] {
             alignas(Float) Channels replaced;
             invalid = replaceInvalid(channels, replaced, Mask::fromBits(live));
@@ -228,7 +230,8 @@ private:
         return invalid;
     }
 
-    bool looksForSame;
+    bool isLarge;
+    unsigned whole;  // live lanes that are worth a branch: all, or none
     const Channels* last = nullptr;
     StoredColor<format> encoded;
 };
