@@ -184,3 +184,23 @@ TEST_CASE("tile: nothing of the tile before remains after clear and load")
         REQUIRE(tile.bounds(block).farthest == 0.75f);
     }
 }
+
+TEST_CASE("tile: nor where a pixel has several samples, and what was stored last was a colour")
+{
+    // The word of white is a NaN where it is taken for a depth. Of the tile 20 x 20 pixels lie in the target.
+    Framebuffer target =
+        *Framebuffer::create(20, 20, {{Format::depth32f, Store::keep}, {Format::rgba8, Store::keep}}, 4);
+    const TargetMemory memory(target);
+    Tile tile(32, memory);
+    tile.begin(0, 0, memory, cleared(glm::vec4(1.0f), 0.25f));
+    tile.store(memory);
+    tile.begin(0, 0, memory, {});
+    for (int block = 0; block < 32 * 32 / kLanes; ++block) {
+        for (int lane = 0; lane < 4 * kLanes; ++lane) {
+            const float depth = tile.depth(tile.sampleOf(block, 0))[lane];
+            REQUIRE((depth == 0.0f || depth == 0.25f));
+        }
+    }
+    CHECK(tile.wholeBounds().nearest == 0.0f);
+    CHECK(tile.wholeBounds().farthest == 0.25f);
+}

@@ -23,7 +23,7 @@ constexpr std::size_t kBlocksPerGroup = 16;
 constexpr std::size_t kFirstGroup = 4;  // of a draw in a tile, when it is not known yet whether its blocks will share
 
 // Where a run has so many blocks a triangle it pays to look at the bounds of the whole tile, which are often in front
-// of all that is drawn over it later.
+// of all that is drawn over it later; and at what a block has in common with the one before.
 constexpr int kBlocksOfLargeTriangle = 64;
 
 // Of one run of blocks.

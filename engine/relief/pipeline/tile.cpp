@@ -270,6 +270,7 @@ void Tile::load(Plane& plane, const TargetMemory& target, std::size_t attachment
     if (pattern->isMultiple()) {
         onePerPixel.resize(static_cast<std::size_t>(blockCount * kLanes * words));
         to = onePerPixel.data();
+        std::fill_n(to, onePerPixel.size(), 0);  // beyond the target nothing is loaded
     }
     loadPlane(to, blocksWide, tilePixels(target, target.shown, attachment, originX, originY, size));
     for (int k = 0; k < blockCount * pattern->count && pattern->isMultiple(); ++k)
