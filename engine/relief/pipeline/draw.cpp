@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 #include <utility>
 
 #include "relief/leave_out.h"
@@ -32,14 +31,6 @@ struct Counts
     unsigned blocks = 0, quadPixels = 0, pixels = 0, hidden = 0, colorless = 0, invalid = 0;
     unsigned whole = 0;  // blocks of which all pixels are live: in none of the pixels above
     unsigned stencilTested = 0, stencilPassed = 0;
-};
-
-// What holds for all of a run of blocks.
-struct Run
-{
-    bool isLarge;    // its triangles are
-    unsigned whole;  // live lanes worth a branch: all, as they are in the next block, too, or in small triangles none
-    DepthBounds inTile;  // of all blocks of the tile together, where that is worth a look
 };
 
 // What of a draw's state a block asks for: any, with one sample a pixel or several, or the usual one, of which the
@@ -123,9 +114,9 @@ bool isBehind(const State& state, const TriangleWeights& triangle, const DepthBo
 // Whether a triangle covers all of a block, and bounds alone show that it is in front of what is there: nothing is
 // compared then.
 template <class State>
-bool replacesDepths(const State& state, const TriangleWeights& triangle, unsigned coverage, const DepthBounds& bounds)
+bool replacesDepths(const State& state, const TriangleWeights& triangle, bool isWhole, const DepthBounds& bounds)
 {
-    return coverage == kAllLanes && state.depthWrite && !state.decides &&
+    return isWhole && state.depthWrite && !state.decides &&
            isInFront(state.depthTest, triangle.nearest, triangle.farthest, bounds);
 }
 
@@ -189,7 +180,15 @@ bool hide(const CoveredBlock& covered, Counts& counts)
     return false;
 }
 
-// A block that is to be shaded.
+// All blocks of a triangle, the first ones in a row. Returns where the next triangle's begin.
+const CoveredBlock* hideTriangle(const CoveredBlock* next, const CoveredBlock* end, Counts& counts)
+{
+    for (const int triangle = next->triangle; next != end && next->triangle == triangle; ++next) hide(*next, counts);
+    return next;
+}
+
+// A block that is to be shaded. `whole`: live lanes that are worth a branch: all, as they are in the next block, too,
+// or in small triangles none. To compare with these is foreseen in both cases.
 void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsigned live, unsigned whole, Counts& counts)
 {
     block.live = live;
@@ -210,14 +209,14 @@ void setBlock(ShadedBlock& block, const CoveredBlock& covered, int index, unsign
 // throw them away afterwards. Returns whether there is anything to shade.
 template <class State>
 bool testEarly(const State& state, const TriangleInTile<false>& triangle, const CoveredBlock& covered,
-               const SampleCoverage* /* the one sample's is the block's */, const Run& run, ShadedBlock& block,
+               const SampleCoverage* /* the one sample's is the block's */, unsigned whole, ShadedBlock& block,
                Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
     const unsigned coverage = covered.coverage;
     DepthBounds& bounds = tile.bounds(index);
-    if (isBehind(state, weights, run.inTile) || isBehind(state, weights, bounds)) return hide(covered, counts);
+    if (isBehind(state, weights, bounds)) return hide(covered, counts);
     unsigned live = coverage;
     if (state.usesDepth || state.usesStencil || state.readsEdges) {
         Float edge[3];
@@ -231,7 +230,7 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
         } else if (state.usesDepth) {
             float* const stored = tile.depth(index);
             const Float depth = triangle.plane.stored(edge[1], edge[2]);
-            if (replacesDepths(state, weights, coverage, bounds)) {
+            if (replacesDepths(state, weights, coverage == whole, bounds)) {
                 depth.store(stored);
                 bounds = depthsOf(weights);
             } else {
@@ -245,19 +244,19 @@ bool testEarly(const State& state, const TriangleInTile<false>& triangle, const 
         if (state.readsEdges) storeEdges(edge, block.edge);
         if (state.readsCentroids) storeEdges(edge, block.centroid);
     }
-    setBlock(block, covered, index, live, run.whole, counts);
+    setBlock(block, covered, index, live, whole, counts);
     return true;
 }
 
 // The same where a pixel has several samples, each with a depth of its own.
 template <class State>
 bool testEarly(const State& state, const TriangleInTile<true>& triangle, const CoveredBlock& covered,
-               const SampleCoverage* samples, const Run& run, ShadedBlock& block, Tile& tile, Counts& counts)
+               const SampleCoverage* samples, unsigned whole, ShadedBlock& block, Tile& tile, Counts& counts)
 {
     const TriangleWeights& weights = triangle.weights;
     const int x = covered.x, y = covered.y, index = tile.blockAt(x, y);
     DepthBounds& bounds = tile.bounds(index);
-    if (isBehind(state, weights, run.inTile) || isBehind(state, weights, bounds)) return hide(covered, counts);
+    if (isBehind(state, weights, bounds)) return hide(covered, counts);
     Float edge[3];
     triangle.edges.at(x, y, edge);
     storeEdges(edge, block.edge);
@@ -288,7 +287,7 @@ bool testEarly(const State& state, const TriangleInTile<true>& triangle, const C
     if (leavesOut::hidden && live == 0) return hide(covered, counts);
     if (everywhere == kAllLanes && state.depthWrite && !state.decides && !state.usesStencil)
         updateBounds(state.depthTest, weights.nearest, weights.farthest, true, bounds);
-    setBlock(block, covered, index, live, run.whole, counts);
+    setBlock(block, covered, index, live, whole, counts);
     block.covered.coverage = static_cast<std::uint16_t>(inside);
     return true;
 }
@@ -362,12 +361,6 @@ void forSamples(const Tile& tile, std::int32_t* plane, const ShadedBlock& block,
     }
 }
 
-// What the program gives one of the targets.
-const Channels& colorOf(const ShadedBlock& block, int target)
-{
-    return target == 0 ? block.color : block.more->color[target - 1];
-}
-
 // Returns how many pixels had a NaN or an infinity. By itself, so that its numbers stay in registers.
 template <Format format, bool severalSamples>
 [[gnu::noinline, gnu::flatten]] unsigned mergeBlocks(std::span<const ShadedBlock> blocks, int target, Blend blend,
@@ -376,19 +369,24 @@ template <Format format, bool severalSamples>
     std::int32_t* const plane = tile.color<format>(target, 0);
     unsigned allInvalid = 0;
     const auto forEach = [&](const auto& merge) {
-        for (const ShadedBlock& block : blocks) allInvalid += static_cast<unsigned>(merge(block));
+        if (target == 0) {
+            for (const ShadedBlock& block : blocks) allInvalid += static_cast<unsigned>(merge(block, block.color));
+        } else {
+            for (const ShadedBlock& block : blocks)
+                allInvalid += static_cast<unsigned>(merge(block, block.more->color[target - 1]));
+        }
     };
     if (blend == Blend::off) {
         ColorWriter<format> writer(isLarge);
-        forEach([&](const ShadedBlock& block) {
-            const int invalid = writer.set(colorOf(block, target), block.live);
+        forEach([&](const ShadedBlock& block, const Channels& color) {
+            const int invalid = writer.set(color, block.live);
             forSamples<format, severalSamples>(tile, plane, block,
                                                [&](std::int32_t* words, unsigned live) { writer.store(words, live); });
             return invalid;
         });
     } else {
-        forEach([&](const ShadedBlock& block) {
-            float4 color = loadChannels(colorOf(block, target));
+        forEach([&](const ShadedBlock& block, const Channels& channels) {
+            float4 color = loadChannels(channels);
             const int invalid = sanitizeColor(color, Mask::fromBits(block.live));
             forSamples<format, severalSamples>(tile, plane, block, [&](std::int32_t* words, unsigned live) {
                 blendInto<format>(words, blend, color, Mask::fromBits(live));
@@ -441,18 +439,18 @@ TriangleCorners cornersOf(const Draw& draw, const TriangleChunk& chunk, const Tr
 }
 
 template <class State>
-void shadeBlocksIn(const State& state, const Draw& draw, std::span<const CoveredBlock> blocks,
-                   const SampleCoverage* samples, const TriangleBatch& batch, const TriangleChunk* const* chunkOf,
-                   Tile& tile, Counts& counts)
+Counts shadeBlocksIn(const State& state, const Draw& draw, std::span<const CoveredBlock> blocks,
+                     const SampleCoverage* samples, const TriangleBatch& batch, const TriangleChunk* const* chunkOf,
+                     Tile& tile)
 {
+    Counts counts;
     constexpr bool severalSamples = State::severalSamples;
     const unsigned targets = draw.state.colorWrite ? state.outputs.targets & tile.colors() : 0;
     const bool runsProgram = !leavesOut::colors || targets != 0 || state.decides;
     const bool mayShare = leavesOut::emptyQuads && draw.programs->shadeShared != nullptr && !state.decides;
     const bool isLarge = static_cast<int>(blocks.size()) >= kBlocksOfLargeTriangle * countBits(batch.visible);
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    const Run run = {isLarge, isLarge ? kAllLanes : ~0u,
-                     isLarge ? tile.wholeBounds() : DepthBounds{-infinity, infinity}};
+    const unsigned whole = isLarge ? kAllLanes : ~0u;
+    const DepthBounds inTile = tile.wholeBounds();
     std::array<ShadedBlock, kBlocksPerGroup> group;
     std::array<MoreOutputs, State::hasOneTarget ? 0 : kBlocksPerGroup> more;
     if constexpr (!State::hasOneTarget) {
@@ -460,23 +458,28 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     }
     std::array<TriangleCorners, kLanes> corners;
     TriangleInTile<severalSamples> triangle;
-    for (auto next = blocks.begin(); next != blocks.end();) {
+    const CoveredBlock* const last = blocks.data() + blocks.size();
+    for (const CoveredBlock* next = blocks.data(); next != last;) {
         const bool isNew = mayShare && tile.seen.draw != &draw;
         const std::size_t groupSize = state.decides ? 1 : isNew ? kFirstGroup : kBlocksPerGroup;
         ShadedBlock* free = group.data();
         ShadedBlock* const full = free + groupSize;
-        while (next != blocks.end() && free != full) {
-            const auto end = next + std::min(blocks.end() - next, full - free);  // there is room for all of these
+        while (next != last && free != full) {
+            const CoveredBlock* const end = next + std::min(last - next, full - free);  // there is room for these
             for (; next != end; ++next) {
                 if (next->triangle != triangle.lane) {
                     triangle.set(draw, batch, next->triangle);
+                    if (isLarge && isBehind(state, triangle.weights, inTile)) {
+                        next = hideTriangle(next, last, counts);
+                        break;
+                    }
                     corners[next->triangle] =
                         cornersOf(draw, *chunkOf[triangle.lane], *batch.triangle[triangle.lane], triangle.isFront);
                     for (const float* const components : corners[next->triangle].components)
                         __builtin_prefetch(components);  // the program asks for them soon
                 }
-                const SampleCoverage* of = severalSamples ? samples + (next - blocks.begin()) : nullptr;
-                if (testEarly(state, triangle, *next, of, run, *free, tile, counts)) ++free;
+                const SampleCoverage* of = severalSamples ? samples + (next - blocks.data()) : nullptr;
+                if (testEarly(state, triangle, *next, of, whole, *free, tile, counts)) ++free;
             }
         }
         const std::span<ShadedBlock> shaded(group.data(), free);
@@ -493,8 +496,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
         if (state.decides) testLate(state, draw, triangle, group[0], tile, counts);
         const auto merge = [&](int target) {
             withFormat(tile.colorFormat(target), [&]<Format format>() {
-                counts.invalid +=
-                    mergeBlocks<format, severalSamples>(shaded, target, draw.state.blend, run.isLarge, tile);
+                counts.invalid += mergeBlocks<format, severalSamples>(shaded, target, draw.state.blend, isLarge, tile);
             });
         };
         if constexpr (State::hasOneTarget) {
@@ -506,9 +508,11 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     counts.pixels += counts.whole * kLanes;
     counts.quadPixels += counts.whole * kLanes;
     if (!runsProgram) counts.colorless = counts.pixels;
-    if (!state.depthWrite) return;
-    updateBounds(state.depthTest, 0.0f, 1.0f, false, tile.wholeBounds());  // whatever was written
-    if (run.isLarge) tile.refreshWholeBounds();
+    if (state.depthWrite) {
+        updateBounds(state.depthTest, 0.0f, 1.0f, false, tile.wholeBounds());  // whatever was written
+        if (isLarge) tile.refreshWholeBounds();
+    }
+    return counts;
 }
 
 // By itself, so that the usual ways below have the registers.
@@ -516,9 +520,7 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
                                                     const SampleCoverage* samples, const TriangleBatch& batch,
                                                     const TriangleChunk* const* chunkOf, Tile& tile)
 {
-    Counts counts;
-    shadeBlocksIn(AnyState<true>(draw, tile), draw, blocks, samples, batch, chunkOf, tile, counts);
-    return counts;
+    return shadeBlocksIn(AnyState<true>(draw, tile), draw, blocks, samples, batch, chunkOf, tile);
 }
 
 }  // namespace
@@ -532,11 +534,11 @@ void shadeBlocksIn(const State& state, const Draw& draw, std::span<const Covered
     if (tile.samples().isMultiple()) {
         counts = shadeSamples(draw, blocks, samples, batch, chunkOf, tile);
     } else if (state.isUsual() && state.readsEdges) {
-        shadeBlocksIn(UsualState<true>(), draw, blocks, nullptr, batch, chunkOf, tile, counts);
+        counts = shadeBlocksIn(UsualState<true>(), draw, blocks, nullptr, batch, chunkOf, tile);
     } else if (state.isUsual()) {
-        shadeBlocksIn(UsualState<false>(), draw, blocks, nullptr, batch, chunkOf, tile, counts);
+        counts = shadeBlocksIn(UsualState<false>(), draw, blocks, nullptr, batch, chunkOf, tile);
     } else {
-        shadeBlocksIn(state, draw, blocks, nullptr, batch, chunkOf, tile, counts);
+        counts = shadeBlocksIn(state, draw, blocks, nullptr, batch, chunkOf, tile);
     }
     shading.activeLanes = kAllLanes;
     statistics.blocksShaded += counts.blocks;

@@ -177,6 +177,13 @@ struct StoredColor
     }
 };
 
+// Encodes what replaceInvalid() gave; a function of its own for the same reason.
+template <Format format>
+[[gnu::noinline]] StoredColor<format> encodeReplaced(const Channels& channels)
+{
+    return {encodeColor<format>(loadChannels(channels))};
+}
+
 // Without blending: the colours of one block after the other into their words in a tile. Neighbours often have one
 // colour, and then its words are there already.
 template <Format format>
@@ -185,7 +192,7 @@ class ColorWriter
 public:
     // `areOfLarge`: whether the blocks are of large triangles. In small ones a block says nothing about the next one,
     // and to look for the same colours, or for whole blocks, costs more than it leaves out.
-    explicit ColorWriter(bool areOfLarge) : isLarge(areOfLarge), whole(areOfLarge ? kAllLanes : ~0u) {}
+    explicit ColorWriter(bool areOfLarge) : whole(areOfLarge ? kAllLanes : ~0u) {}
 
     // A block's live pixels, a bit each, linear; `color` stays where it is until the next call. Returns how many of
     // them had a NaN or an infinity.
@@ -217,20 +224,19 @@ private:
     // In all lanes: other pixels may be live in the next block.
     int encode(const Channels& channels, unsigned live)
     {
-        float4 color = loadChannels(channels);
-        int invalid = 0;
-        last = isLarge ? &channels : nullptr;
+        const float4 color = loadChannels(channels);
         if (any(mayBeInvalid(color))) [[unlikely]] {
             alignas(Float) Channels replaced;
-            invalid = replaceInvalid(channels, replaced, Mask::fromBits(live));
-            color = loadChannels(replaced);
+            const int invalid = replaceInvalid(channels, replaced, Mask::fromBits(live));
             last = nullptr;
+            encoded = encodeReplaced<format>(replaced);
+            return invalid;
         }
+        if (whole == kAllLanes) last = &channels;
         encoded.words = encodeColor<format>(color);
-        return invalid;
+        return 0;
     }
 
-    bool isLarge;
     unsigned whole;  // live lanes that are worth a branch: all, or none
     const Channels* last = nullptr;
     StoredColor<format> encoded;
