@@ -23,10 +23,10 @@ Triangle clockwise(const Corners& c)
     return t;
 }
 
-void bin(TriangleChunk& chunk, const TileGrid& grid, const DrawGeometry* const* draws)
+void bin(TriangleChunk& chunk, const TileGrid& grid, const DrawGeometry& draw)
 {
     chunk.entries.clear();
-    findTiles(chunk, 0, grid, draws);
+    findTiles(chunk, 0, grid, draw);
     sortByTile(chunk, grid);
 }
 
@@ -40,7 +40,6 @@ TEST_CASE("bin: tiles get exactly the triangles that no edge keeps out, in order
         CAPTURE(tileSize);
         DrawGeometry draw;
         draw.bounds = {0, 0, kWidth, kHeight};
-        const DrawGeometry* draws[] = {&draw};
         const TileGrid grid = {tileSize, (kWidth + tileSize - 1) / tileSize, (kHeight + tileSize - 1) / tileSize};
 
         TriangleChunk chunk;
@@ -53,7 +52,7 @@ TEST_CASE("bin: tiles get exactly the triangles that no edge keeps out, in order
             corners.push_back(c);
             chunk.triangles.push_back(t);
         }
-        bin(chunk, grid, draws);
+        bin(chunk, grid, draw);
         CHECK(chunk.entries.size() == chunk.sorted.size());
         CHECK(chunk.binStart.size() == static_cast<std::size_t>(grid.count()) + 1);
         CHECK(chunk.binStart.back() == chunk.sorted.size());
@@ -100,22 +99,21 @@ TEST_CASE("bin: a chunk without triangles, and one with a triangle over all tile
 {
     DrawGeometry draw;
     draw.bounds = {0, 0, 100, 100};
-    const DrawGeometry* draws[] = {&draw};
     const TileGrid grid = {16, 7, 7};
     TriangleChunk chunk;
-    bin(chunk, grid, draws);
+    bin(chunk, grid, draw);
     CHECK(chunk.sorted.empty());
     CHECK(chunk.binStart == std::vector<std::uint32_t>(50, 0));
 
     chunk.triangles.push_back(clockwise({{{-25600, -25600}, {25600 * 4, -25600}, {-25600, 25600 * 4}}}));
-    bin(chunk, grid, draws);
+    bin(chunk, grid, draw);
     CHECK(chunk.sorted == std::vector<std::uint32_t>(49, 0));
     CHECK(chunk.entries.size() == 49);
 
     // Used again: nothing of the frame before is left.
     chunk.clear();
     chunk.triangles.push_back(clockwise({{{0, 0}, {512, 0}, {0, 512}}}));
-    bin(chunk, grid, draws);
+    bin(chunk, grid, draw);
     CHECK(chunk.sorted == std::vector<std::uint32_t>(1, 0));
     CHECK(chunk.binStart[0] == 0);
     CHECK(chunk.binStart[1] == 1);
@@ -126,10 +124,9 @@ TEST_CASE("bin: the scissor's and the viewport's pixels alone decide on tiles (S
 {
     DrawGeometry draw;
     draw.bounds = {20, 20, 21, 21};
-    const DrawGeometry* draws[] = {&draw};
     TriangleChunk chunk;
     chunk.triangles.push_back(clockwise({{{0, 0}, {25600, 0}, {0, 25600}}}));
-    bin(chunk, {16, 7, 7}, draws);
+    bin(chunk, {16, 7, 7}, draw);
     REQUIRE(chunk.entries.size() == 1);
     CHECK(chunk.entries[0].tile == 8);
 }

@@ -9,14 +9,24 @@ namespace relief::inline RELIEF_WIDTH {
 
 namespace {
 
-// Whether no pixel centre of the square of `size` pixels at (x, y) is inside the edge, nor anything so near to one.
-bool rejects(const EdgeFunction& edge, int x, int y, int size, int sampleReach)
+// What an edge's coverage() is at most in a tile's pixels: at their centres, or, with a reach, so near to them.
+class LargestInTile
 {
-    const std::int64_t reach = size - 1;
-    const SamplePattern::Position innermost = {edge.stepX < 0 ? -sampleReach : sampleReach,
-                                               edge.stepY < 0 ? -sampleReach : sampleReach};
-    return edge.coverage(x, y, innermost) + reach * std::max(0, edge.stepX) + reach * std::max(0, edge.stepY) < 0;
-}
+public:
+    LargestInTile(const EdgeFunction& edge, int tileSize, int sampleReach)
+        : stepX(std::int64_t{edge.stepX} * tileSize), stepY(std::int64_t{edge.stepY} * tileSize)
+    {
+        const int last = tileSize - 1;
+        const SamplePattern::Position innermost = {edge.stepX < 0 ? -sampleReach : sampleReach,
+                                                   edge.stepY < 0 ? -sampleReach : sampleReach};
+        inFirst = edge.coverage(edge.stepX > 0 ? last : 0, edge.stepY > 0 ? last : 0, innermost);
+    }
+
+    std::int64_t at(int tileX, int tileY) const { return inFirst + stepX * tileX + stepY * tileY; }
+
+private:
+    std::int64_t stepX, stepY, inFirst;
+};
 
 // kLanes triangles of one draw, or fewer: the tiles that their pixels' bounds span.
 struct TileSpans
@@ -48,36 +58,40 @@ void binLarge(TriangleChunk& chunk, std::uint32_t index, const TileGrid& grid, i
               int y1)
 {
     const Triangle& t = chunk.triangles[index];
-    const EdgeFunction edges[3] = {edgeOf(t, 0), edgeOf(t, 1), edgeOf(t, 2)};
+    const auto ofEdge = [&](int k) { return LargestInTile(edgeOf(t, k), grid.tileSize, sampleReach); };
+    const LargestInTile a = ofEdge(0), b = ofEdge(1), c = ofEdge(2);
     for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
-            const bool outside = std::any_of(edges, edges + 3, [&](const EdgeFunction& edge) {
-                return rejects(edge, x * grid.tileSize, y * grid.tileSize, grid.tileSize, sampleReach);
-            });
-            if (!outside) chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.width + x), index});
+            if ((a.at(x, y) | b.at(x, y) | c.at(x, y)) >= 0)  // none negative
+                chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.width + x), index});
         }
     }
 }
 
 }  // namespace
 
-void findTiles(TriangleChunk& chunk, std::uint32_t begin, const TileGrid& grid, const DrawGeometry* const* draws)
+void findTiles(TriangleChunk& chunk, std::uint32_t begin, const TileGrid& grid, const DrawGeometry& draw)
 {
     const auto total = static_cast<std::uint32_t>(chunk.triangles.size());
-    for (std::uint32_t next = begin; next < total;) {
-        const Triangle* const first = &chunk.triangles[next];
-        std::uint32_t count = 1;
-        while (count < kLanes && next + count < total && first[count].drawIndex() == first->drawIndex()) ++count;
-        const DrawGeometry& draw = *draws[first->drawIndex()];
-        const TileSpans span(first, count, grid, draw);
-        const Int tile = span.y0 * Int(grid.width) + span.x0;
-        const unsigned single = ((span.x0 == span.x1) & (span.y0 == span.y1)).bits();
-        for (std::uint32_t i = 0; i < count; ++i, ++next) {
+    for (std::uint32_t next = begin; next < total; next += kLanes) {
+        const std::uint32_t count = std::min<std::uint32_t>(kLanes, total - next);
+        const TileSpans span(&chunk.triangles[next], count, grid, draw);
+        std::int32_t tile[kLanes];
+        (span.y0 * Int(grid.width) + span.x0).store(tile);
+        const unsigned several = ((span.x0 != span.x1) | (span.y0 != span.y1)).bits();
+        if (several == 0) {
+            const std::size_t size = chunk.entries.size();
+            chunk.entries.resize(size + count);
+            for (std::uint32_t i = 0; i < count; ++i)
+                chunk.entries[size + i] = {static_cast<std::uint32_t>(tile[i]), next + i};
+            continue;
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
             const int lane = static_cast<int>(i);
-            if ((single >> i & 1u) != 0) {
-                chunk.entries.push_back({static_cast<std::uint32_t>(tile[lane]), next});
+            if ((several >> i & 1u) == 0) {
+                chunk.entries.push_back({static_cast<std::uint32_t>(tile[i]), next + i});
             } else {
-                binLarge(chunk, next, grid, draw.sampleReach, span.x0[lane], span.y0[lane], span.x1[lane],
+                binLarge(chunk, next + i, grid, draw.sampleReach, span.x0[lane], span.y0[lane], span.x1[lane],
                          span.y1[lane]);
             }
         }

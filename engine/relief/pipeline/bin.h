@@ -14,8 +14,8 @@ struct TileGrid
     int count() const { return width * height; }
 };
 
-// Finds the tiles of the chunk's triangles from `first` on. `draws[d]` is draw d.
-void findTiles(TriangleChunk& chunk, std::uint32_t first, const TileGrid& grid, const DrawGeometry* const* draws);
+// Finds the tiles of the chunk's triangles from `first` on, all of them one draw's.
+void findTiles(TriangleChunk& chunk, std::uint32_t first, const TileGrid& grid, const DrawGeometry& draw);
 
 // Sorts what findTiles() found by tile.
 void sortByTile(TriangleChunk& chunk, const TileGrid& grid);

@@ -307,26 +307,28 @@ void Frame::Storage::cutPrimitives()
 // All chunks from the first on that are not ready, as far as there is room. The first one has some in any case.
 void Frame::Storage::setUpAndBin(std::size_t firstChunk)
 {
-    std::vector<const DrawGeometry*> geometry;
-    for (const Draw& draw : draws) geometry.push_back(&draw.geometry);
     workers.run(static_cast<int>(usedChunks - firstChunk), [&](int index, int worker) {
         Chunk& chunk = chunks[firstChunk + static_cast<std::size_t>(index)];
         if (chunk.isReady || (index != 0 && binned >= maxBinned)) return;
-        setUpAndBin(chunk, geometry.data(), perWorker[static_cast<std::size_t>(worker)].statistics);
+        setUpAndBin(chunk, perWorker[static_cast<std::size_t>(worker)].statistics);
     });
 }
 
-void Frame::Storage::setUpAndBin(Chunk& chunk, const DrawGeometry* const* geometry, Statistics& statistics)
+void Frame::Storage::setUpAndBin(Chunk& chunk, Statistics& statistics)
 {
+    std::size_t expected = chunk.triangles.size();
+    for (const Piece& piece : chunk.rest) expected += piece.count;
+    chunk.triangles.reserve(expected);
+    chunk.entries.reserve(expected);
     bool isFull = false;
     std::size_t done = 0;
     while (!isFull && done < chunk.rest.size()) {
         Piece& piece = chunk.rest[done];
         const std::uint32_t count = std::min(piece.count, kPrimitivesPerCount);
-        const DrawGeometry& g = *geometry[piece.draw];
+        const DrawGeometry& g = draws[piece.draw].geometry;
         const std::size_t triangles = chunk.triangles.size(), pairs = chunk.entries.size();
         (g.primitive == Primitive::lines ? setUpLines : setUpTriangles)(g, piece.first, count, chunk, statistics);
-        findTiles(chunk, static_cast<std::uint32_t>(triangles), grid, geometry);
+        findTiles(chunk, static_cast<std::uint32_t>(triangles), grid, g);
         const auto more = static_cast<std::uint32_t>(chunk.entries.size() - pairs);
         statistics.trianglesBinned += more;
         isFull = (binned += more) >= maxBinned;

@@ -80,7 +80,7 @@ struct Frame::Storage
     Clear clearOf(const TargetMemory& memory) const;
     void startNextPart(Part& part);
     void setUpAndBin(std::size_t firstChunk);
-    void setUpAndBin(Chunk& chunk, const DrawGeometry* const* geometry, Statistics& statistics);
+    void setUpAndBin(Chunk& chunk, Statistics& statistics);
     void drawTile(const Part& part, int tileIndex, Worker& worker);
     void drawTriangles(const Part& part, int tileIndex, Worker& worker);
 
