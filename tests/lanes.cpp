@@ -199,7 +199,7 @@ TEST_CASE("loadTransposed: word k of every lane's address")
 {
     const Memory memory;
     native::IntVector out[4];
-    native::loadTransposed(memory.address, out);
+    native::loadTransposed<native::FourWords>([&](int lane) { return memory.address[lane]; }, out);
     for (int k = 0; k < 4; ++k) {
         for (int i = 0; i < kLanes; ++i) CHECK(Int(out[k])[i] == memory.wordAt(i, k));
     }
@@ -220,15 +220,15 @@ TEST_CASE("storeTransposed: word k of every lane's address, and no other byte")
             std::memcpy(expected.data() + place + 4 * k, &word, 4);
         }
     }
-    native::storeTransposed(in, address);
+    native::storeTransposed(in, [&](int lane) { return address[lane]; });
     CHECK(bytes == expected);
 }
 
-TEST_CASE("loadTransposedPair: both words of every lane's address")
+TEST_CASE("loadTransposed of two words: both words of every lane's address")
 {
     const Memory memory;
     native::IntVector out[2];
-    native::loadTransposedPair(memory.address, out);
+    native::loadTransposed<native::TwoWords>([&](int lane) { return memory.address[lane]; }, out);
     for (int k = 0; k < 2; ++k) {
         for (int i = 0; i < kLanes; ++i) CHECK(Int(out[k])[i] == memory.wordAt(i, k));
     }

@@ -422,7 +422,8 @@ struct FrontEnd
             for (std::size_t i = 0; i < count; ++i) {
                 for (int c = 0; c < 4; ++c) lanes[c].set(static_cast<int>(i), in[first + i][c]);
             }
-            projectVertices(draw, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), lanes);
+            projectVertices(draw, ViewportTransform(draw.viewport), static_cast<std::uint32_t>(first),
+                            static_cast<std::uint32_t>(count), lanes);
         }
     }
 

@@ -20,15 +20,15 @@ unsigned lane_negativeBits(DoubleVector low, DoubleVector high)
 }
 void lane_load(const std::byte* const* address, IntVector* out)
 {
-    loadTransposed(address, out);
+    loadTransposed<FourWords>([address](int lane) { return address[lane]; }, out);
 }
 void lane_loadPair(const std::byte* const* address, IntVector* out)
 {
-    loadTransposedPair(address, out);
+    loadTransposed<TwoWords>([address](int lane) { return address[lane]; }, out);
 }
 void lane_store(const IntVector* in, std::byte* const* address)
 {
-    storeTransposed(in, address);
+    storeTransposed(in, [address](int lane) { return address[lane]; });
 }
 IntVector lane_multiplyAddHalves(IntVector a, IntVector b)
 {

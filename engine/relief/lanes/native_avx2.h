@@ -98,11 +98,12 @@ inline IntVector insertQuad(IntVector quads, QuadVector bits)
         return (IntVector)_mm256_inserti128_si256((__m256i)quads, (__m128i)bits, quad);
     }
 }
-// Quad q to address[4 * q].
-inline void storeQuads(IntVector quads, std::byte* const* address)
+// Quad q to address(4 * q).
+template <class Address>
+inline void storeQuads(IntVector quads, const Address& address)
 {
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(address[0]), _mm256_castsi256_si128((__m256i)quads));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(address[4]), _mm256_extracti128_si256((__m256i)quads, 1));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(address(0)), _mm256_castsi256_si128((__m256i)quads));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(address(4)), _mm256_extracti128_si256((__m256i)quads, 1));
 }
 // 8 bytes from each.
 inline QuadVector loadTwoHalves(const std::byte* low, const std::byte* high)

@@ -148,14 +148,15 @@ inline IntVector insertQuad(IntVector quads, QuadVector bits)
         return (IntVector)_mm512_inserti32x4((__m512i)quads, (__m128i)bits, quad);
     }
 }
-// Quad q to address[4 * q].
-inline void storeQuads(IntVector quads, std::byte* const* address)
+// Quad q to address(4 * q).
+template <class Address>
+inline void storeQuads(IntVector quads, const Address& address)
 {
     const __m512i q = (__m512i)quads;
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(address[0]), _mm512_castsi512_si128(q));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(address[4]), _mm512_extracti32x4_epi32(q, 1));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(address[8]), _mm512_extracti32x4_epi32(q, 2));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(address[12]), _mm512_extracti32x4_epi32(q, 3));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(address(0)), _mm512_castsi512_si128(q));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(address(4)), _mm512_extracti32x4_epi32(q, 1));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(address(8)), _mm512_extracti32x4_epi32(q, 2));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(address(12)), _mm512_extracti32x4_epi32(q, 3));
 }
 // 8 bytes from each.
 inline QuadVector loadTwoHalves(const std::byte* low, const std::byte* high)

@@ -91,9 +91,10 @@ inline IntVector insertQuad(IntVector, QuadVector bits)
 {
     return bits;
 }
-inline void storeQuads(IntVector quads, std::byte* const* address)
+template <class Address>
+inline void storeQuads(IntVector quads, const Address& address)
 {
-    std::memcpy(address[0], &quads, sizeof quads);
+    std::memcpy(address(0), &quads, sizeof quads);
 }
 // 8 bytes from each.
 inline QuadVector loadTwoHalves(const std::byte* low, const std::byte* high)

@@ -21,15 +21,16 @@ inline void transposeQuads(IntVector a, IntVector b, IntVector c, IntVector d, I
     out[3] = (IntVector)shuffleQuads<2, 3, 6, 7>(t2, t3);
 }
 
-// The inverse of loadTransposed: the k-th 32-bit word at address[i] = in[k] lane i; 16 bytes are written per lane.
-inline void storeTransposed(const IntVector in[4], std::byte* const address[kLanes])
+// The inverse of loadTransposed: the k-th 32-bit word at address(i) = in[k] lane i; 16 bytes are written per lane.
+template <class Address>
+[[gnu::always_inline]] inline void storeTransposed(const IntVector in[4], const Address& address)
 {
     IntVector lane[4];  // lane[k] holds the words of lane k in every quad
     transposeQuads(in[0], in[1], in[2], in[3], lane);
     storeQuads(lane[0], address);  // no loop: g++ 12 at -O2 would keep it, and the lanes in memory
-    storeQuads(lane[1], address + 1);
-    storeQuads(lane[2], address + 2);
-    storeQuads(lane[3], address + 3);
+    storeQuads(lane[1], [&](int i) { return address(i + 1); });
+    storeQuads(lane[2], [&](int i) { return address(i + 2); });
+    storeQuads(lane[3], [&](int i) { return address(i + 3); });
 }
 
 // Gathers 16 bytes per lane, quad after quad, and gives word k of every lane.
@@ -107,15 +108,6 @@ template <class Words, class Address, class OtherAddress>
     });
     words.transposed(out);
     otherWords.transposed(otherOut);
-}
-
-inline void loadTransposed(const std::byte* const* address, IntVector out[4])
-{
-    loadTransposed<FourWords>([address](int lane) { return address[lane]; }, out);
-}
-inline void loadTransposedPair(const std::byte* const* address, IntVector out[2])
-{
-    loadTransposed<TwoWords>([address](int lane) { return address[lane]; }, out);
 }
 
 }  // namespace relief::inline RELIEF_WIDTH::native

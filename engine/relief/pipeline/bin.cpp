@@ -35,14 +35,12 @@ struct TileSpans
 
     TileSpans(const Triangle* first, std::uint32_t count, const TileGrid& grid, const DrawGeometry& draw)
     {
-        const std::byte* address[2][kLanes];
-        for (std::uint32_t i = 0; i < kLanes; ++i) {
-            address[0][i] = reinterpret_cast<const std::byte*>(first + (i < count ? i : 0));
-            address[1][i] = address[0][i] + 16;
-        }
         native::IntVector w[8];  // the corners' x and y are a triangle's first six words
-        native::loadTransposed(address[0], w);
-        native::loadTransposed(address[1], w + 4);
+        const auto addressOf = [&](int lane) {
+            return reinterpret_cast<const std::byte*>(first + (static_cast<std::uint32_t>(lane) < count ? lane : 0));
+        };
+        native::loadTransposed<native::FourWords>(addressOf, w);
+        native::loadTransposed<native::FourWords>([&](int lane) { return addressOf(lane) + 16; }, w + 4);
         const Int x[3] = {Int(w[0]), Int(w[1]), Int(w[2])}, y[3] = {Int(w[3]), Int(w[4]), Int(w[5])};
         const RectangleLanes pixels = sampleBounds(x, y, draw.bounds, draw.sampleReach);
         const int shift = std::countr_zero(static_cast<unsigned>(grid.tileSize));

@@ -84,13 +84,13 @@ Batch gather(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count,
     }
     for (int k = 0; k < 3; ++k) {
         std::int32_t vertex[kLanes];
-        const std::byte* address[kLanes];
-        for (int i = 0; i < kLanes; ++i) {
-            vertex[i] = static_cast<std::int32_t>(index[3 * i + k]);
-            address[i] = reinterpret_cast<const std::byte*>(draw.screen + index[3 * i + k]);
-        }
+        for (int i = 0; i < kLanes; ++i) vertex[i] = static_cast<std::int32_t>(index[3 * i + k]);
         native::IntVector word[4];
-        native::loadTransposed(address, word);
+        native::loadTransposed<native::FourWords>(
+            [&](int lane) {
+                return reinterpret_cast<const std::byte*>(draw.screen + static_cast<std::uint32_t>(vertex[lane]));
+            },
+            word);
         batch.lanes.x[k] = Int(word[0]);
         batch.lanes.y[k] = Int(word[1]);
         batch.lanes.z[k] = asFloat(Int(word[2]));
@@ -160,10 +160,10 @@ void append(const TriangleLanes& t, Int drawWord, unsigned kept, TriangleChunk& 
     chunk.triangles.resize(size + static_cast<std::size_t>(std::popcount(kept)));
     auto* out = reinterpret_cast<std::byte*>(chunk.triangles.data() + size);
     alignas(64) std::byte nowhere[sizeof(Triangle)];
-    std::byte* address[4][kLanes];
+    std::byte* place[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
         const bool keep = (kept >> lane & 1u) != 0;
-        for (int part = 0; part < 4; ++part) address[part][lane] = (keep ? out : nowhere) + 16 * part;
+        place[lane] = keep ? out : nowhere;
         out += keep ? sizeof(Triangle) : 0;
     }
     static_assert(offsetof(Triangle, y) == 12 && offsetof(Triangle, z) == 24 && offsetof(Triangle, invW) == 36 &&
@@ -173,7 +173,8 @@ void append(const TriangleLanes& t, Int drawWord, unsigned kept, TriangleChunk& 
                                         t.y[1].value,      t.y[2].value,      bits(t.z[0]),      bits(t.z[1]),
                                         bits(t.z[2]),      bits(t.invW[0]),   bits(t.invW[1]),   bits(t.invW[2]),
                                         t.vertex[0].value, t.vertex[1].value, t.vertex[2].value, drawWord.value};
-    for (int part = 0; part < 4; ++part) native::storeTransposed(word + 4 * part, address[part]);
+    for (int part = 0; part < 4; ++part)
+        native::storeTransposed(word + 4 * part, [&](int lane) { return place[lane] + 16 * part; });
 }
 
 // Appends the lanes in `candidates` that survive culling.

@@ -114,14 +114,12 @@ void TriangleBatch::set(std::span<const Triangle* const> triangles, const Rectan
     // The 12 words before `vertex`, from one triangle after the other to one word after the other. Lanes that are not
     // used hold the first triangle again.
     static_assert(offsetof(Triangle, y) == 12 && offsetof(Triangle, z) == 24 && offsetof(Triangle, invW) == 36);
-    const std::byte* address[3][kLanes];
-    for (std::size_t i = 0; i < kLanes; ++i) {
-        triangle[i] = triangles[i < triangles.size() ? i : 0];
-        for (int part = 0; part < 3; ++part)
-            address[part][i] = reinterpret_cast<const std::byte*>(triangle[i]) + 16 * part;
-    }
+    for (std::size_t i = 0; i < kLanes; ++i) triangle[i] = triangles[i < triangles.size() ? i : 0];
     native::IntVector word[12];
-    for (int part = 0; part < 3; ++part) native::loadTransposed(address[part], word + 4 * part);
+    for (int part = 0; part < 3; ++part) {
+        const auto addressOf = [&](int lane) { return reinterpret_cast<const std::byte*>(triangle[lane]) + 16 * part; };
+        native::loadTransposed<native::FourWords>(addressOf, word + 4 * part);
+    }
     const Corners corners = {{Int(word[0]), Int(word[1]), Int(word[2])}, {Int(word[3]), Int(word[4]), Int(word[5])}};
     Float z[3] = {asFloat(Int(word[6])), asFloat(Int(word[7])), asFloat(Int(word[8]))};
     const Float w[3] = {asFloat(Int(word[9])), asFloat(Int(word[10])), asFloat(Int(word[11]))};

@@ -13,11 +13,33 @@ namespace {
 void storeWords(void* out, std::size_t stride, std::uint32_t count, const Int (&words)[4])
 {
     const native::IntVector in[4] = {words[0].value, words[1].value, words[2].value, words[3].value};
+    const auto placeOf = [&](int lane) {
+        return static_cast<std::byte*>(out) + static_cast<std::size_t>(lane) * stride;
+    };
+    if (count == kLanes) return native::storeTransposed(in, placeOf);
     std::byte nowhere[16];
-    std::byte* address[kLanes];
-    for (std::uint32_t i = 0; i < kLanes; ++i)
-        address[i] = i < count ? static_cast<std::byte*>(out) + i * stride : nowhere;
-    native::storeTransposed(in, address);
+    native::storeTransposed(
+        in, [&](int lane) { return static_cast<std::uint32_t>(lane) < count ? placeOf(lane) : nowhere; });
+}
+
+// Which vertex of the mesh each lane has, and of which instance: the draw's vertices from `first` on. Lanes from
+// `count` on have the first one again.
+void numberVertices(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, std::uint32_t (&vertex)[kLanes],
+                    std::uint32_t (&instance)[kLanes])
+{
+    const bool isOneInstance = draw.verticesPerInstance == draw.vertexCount;
+    if (isOneInstance && count == kLanes) {
+        for (std::uint32_t i = 0; i < kLanes; ++i) {
+            vertex[i] = first + draw.firstVertex + i;
+            instance[i] = 0;
+        }
+        return;
+    }
+    for (std::uint32_t i = 0; i < kLanes; ++i) {
+        const std::uint32_t at = first + (i < count ? i : 0);
+        instance[i] = isOneInstance ? 0 : at / draw.verticesPerInstance;
+        vertex[i] = at - instance[i] * draw.verticesPerInstance + draw.firstVertex;
+    }
 }
 
 // The fields that are counted instead of read.
@@ -40,20 +62,21 @@ void readStream(const StreamView& stream, const std::uint32_t* element, std::uin
     // Four words are read of each, if the last one's lie within the stream.
     if (components >= 2 &&
         (last + std::size_t{1}) * components + (components == 3 ? 1 : 0) <= stream.count * components) {
-        const std::byte* address[kLanes];
-        const auto addressOf = [&](std::size_t e) {
-            return reinterpret_cast<const std::byte*>(stream.words + e * components);
+        native::IntVector words[4];
+        const auto load = [&](const auto& elementOf) {
+            const auto addressOf = [&](int lane) {
+                return reinterpret_cast<const std::byte*>(stream.words + elementOf(lane) * components);
+            };
+            if (components == 2) {
+                native::loadTransposed<native::TwoWords>(addressOf, words);
+            } else {
+                native::loadTransposed<native::FourWords>(addressOf, words);
+            }
         };
         if (isRun && count == kLanes) {
-            for (std::size_t i = 0; i < kLanes; ++i) address[i] = addressOf(element[0] + i);
+            load([&](int lane) { return std::size_t{element[0]} + static_cast<std::size_t>(lane); });
         } else {
-            for (std::size_t i = 0; i < kLanes; ++i) address[i] = addressOf(element[i < count ? i : 0]);
-        }
-        native::IntVector words[4];
-        if (components == 2) {
-            native::loadTransposedPair(address, words);
-        } else {
-            native::loadTransposed(address, words);
+            load([&](int lane) { return std::size_t{element[static_cast<std::uint32_t>(lane) < count ? lane : 0]}; });
         }
         for (std::size_t c = 0; c < components; ++c) lanes[c] = asFloat(Int(words[c]));
     } else {
@@ -98,15 +121,12 @@ void noteClipDistances(const DrawGeometry& draw, std::uint32_t first, std::uint3
 void shadeVertices(const Draw& draw, std::uint32_t first, std::uint32_t count)
 {
     const DrawGeometry& g = draw.geometry;
+    const ViewportTransform transform(g.viewport);
     VertexLanes lanes;
     for (std::uint32_t begin = first; begin < first + count; begin += kLanes) {
         const std::uint32_t n = std::min<std::uint32_t>(kLanes, first + count - begin);
         std::uint32_t vertex[kLanes], instance[kLanes];
-        for (std::uint32_t i = 0; i < kLanes; ++i) {
-            const std::uint32_t at = begin + (i < n ? i : 0);
-            instance[i] = g.verticesPerInstance == g.vertexCount ? 0 : at / g.verticesPerInstance;
-            vertex[i] = at - instance[i] * g.verticesPerInstance + g.firstVertex;
-        }
+        numberVertices(g, begin, n, vertex, instance);
         for (std::size_t f = 0; f < draw.streams.size(); ++f) {
             const StreamView& stream = draw.streams[f];
             if (stream.words != nullptr) {
@@ -116,15 +136,15 @@ void shadeVertices(const Draw& draw, std::uint32_t first, std::uint32_t count)
             }
         }
         draw.programs->shadeVertices(draw.vertexProgram.get(), lanes);
-        projectVertices(g, begin, n, lanes.position);
+        projectVertices(g, transform, begin, n, lanes.position);
         noteClipDistances(g, begin, n, lanes.components);
         storeComponents(g, begin, n, lanes.components);
     }
 }
 
-void projectVertices(const DrawGeometry& draw, std::uint32_t first, std::uint32_t count, const float4& clip)
+void projectVertices(const DrawGeometry& draw, const ViewportTransform& transform, std::uint32_t first,
+                     std::uint32_t count, const float4& clip)
 {
-    const ViewportTransform transform(draw.viewport);
     const Float largest = max(max(abs(clip.x), abs(clip.y)), max(abs(clip.z), abs(clip.w)));
     const Mask isNan = isnan(clip.x) | isnan(clip.y) | isnan(clip.z) | isnan(clip.w);
     const Mask isInfinite = largest > std::numeric_limits<float>::max();
