@@ -203,6 +203,37 @@ TEST_CASE("functions of each component take numbers, single values, plain vector
     CHECK(is(whole, 1.0f, -1.0f, 2.0f));
 }
 
+TEST_CASE("functions of each component take plain vectors of GLM beside single values")
+{
+    const glm::vec3 ground(0, 1, 2), sky(4, 2, -1);
+    const Float half = 0.5f;
+    TEXCOORD<0, Float> field;
+    field = half;
+    CHECK(is(lerp(ground, sky, half), 2.0f, 1.5f, 0.5f));
+    CHECK(is(lerp(ground, sky, field), 2.0f, 1.5f, 0.5f));
+    CHECK(is(lerp(ground, half, sky), 2.0f, 0.0f, 3.5f));
+    CHECK(is(lerp(half, ground, sky), -1.5f, 1.5f, -1.0f));
+    CHECK(is(lerp(half, 1, ground), 0.5f, 1.0f, 1.5f));
+    CHECK(is(lerp(half, ground, 2), -0.5f, 1.5f, 3.5f));
+    CHECK(is(lerp(ground, 1, half), 0.5f, 1.0f, 1.5f));
+    CHECK(is(max(ground, half), 0.5f, 1.0f, 2.0f));
+    CHECK(is(min(field, ground), 0.0f, 0.5f, 0.5f));
+    CHECK(is(step(half, ground), 0.0f, 1.0f, 1.0f));
+    CHECK(is(pow(Float(2.0f), ground), 1.0f, 2.0f, 4.0f));
+    CHECK(is(fmod(ground, Float(2.0f)), 0.0f, 1.0f, 0.0f));
+    CHECK(is(clamp(sky, half, 2), 2.0f, 2.0f, 0.5f));
+    CHECK(is(smoothstep(0, sky, half * 2), 0.15625f, 0.5f, 0.0f));
+    CHECK(is(mad(ground, half, sky), 4.0f, 2.5f, 0.0f));
+    CHECK(is(mul(ground, half), 0.0f, 0.5f, 1.0f));
+    CHECK(is(mul(field, glm::vec2(1, 2)), 0.5f, 1.0f));
+    CHECK(is(select(half > 0, ground, sky), 0.0f, 1.0f, 2.0f));
+    CHECK(is(select(half < 0, ground, 3), 3.0f, 3.0f, 3.0f));
+    CHECK(is(select(bool3(true, false, true), half, sky), 0.5f, 2.0f, 0.5f));
+    // GLM's own functions stay GLM's.
+    static_assert(std::is_same_v<decltype(max(ground, 0.5f)), glm::vec3>);
+    static_assert(std::is_same_v<decltype(clamp(ground, 0.0f, 1.0f)), glm::vec3>);
+}
+
 TEST_CASE("isnan, isinf and isfinite of each component")
 {
     const float4 v(kNan, -kInfinity, kLargest, 0.0f);
@@ -244,6 +275,9 @@ TEST_CASE("frexp: as the standard library's")
         CHECK(same(frexp(Float(x), exponent)[0], mantissa));
         CHECK(exponent[kLanes - 1] == (std::isfinite(x) ? static_cast<float>(expected) : 0.0f));
     }
+    float2 exponents;
+    CHECK(is(frexp(float2(12, -0.25f), exponents), 0.75f, -0.5f));
+    CHECK(is(exponents, 4.0f, -1.0f));
 }
 
 TEST_CASE("countbits, reversebits, firstbitlow and firstbithigh")

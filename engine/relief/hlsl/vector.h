@@ -81,11 +81,6 @@ struct VectorOperators<Mask, n>
 #undef RELIEF_OPERATOR
 #undef RELIEF_UNARY_OPERATOR
 
-// The plain numbers that become a T by themselves.
-template <class N, class T>
-concept NumberFor = Number<N> &&
-    (std::is_same_v<T, Float> || (std::is_same_v<T, Int> && WholeNumber<N>) || std::is_same_v<N, bool>);
-
 template <class V, class T, int n>
 inline constexpr bool kIsPlainVector = false;
 template <int n>
@@ -187,46 +182,82 @@ struct LaneVector : detail::Components<T, n>, detail::VectorOperators<T, n>, det
     LaneVector& operator|=(const LaneVector& v) { return *this = *this | v; }
 };
 
-// A plain vector of GLM beside a single value: neither of the two is a vector of lanes yet.
+// Plain vectors of GLM beside single values: none of them is a vector of lanes yet.
+#define RELIEF_PLAIN const glm::vec<n, float>&
+#define RELIEF_OF_TWO(name, A, B)       \
+    template <int n>                    \
+    LaneVector<Float, n> name(A a, B b) \
+    {                                   \
+        using V = LaneVector<Float, n>; \
+        return name(V(a), V(b));        \
+    }
+#define RELIEF_OF_THREE(name, A, B, C)       \
+    template <int n>                         \
+    LaneVector<Float, n> name(A a, B b, C c) \
+    {                                        \
+        using V = LaneVector<Float, n>;      \
+        return name(V(a), V(b), V(c));       \
+    }
+#define RELIEF_OF_PLAIN_TWO(name)            \
+    RELIEF_OF_TWO(name, RELIEF_PLAIN, Float) \
+    RELIEF_OF_TWO(name, Float, RELIEF_PLAIN)
+#define RELIEF_OF_PLAIN_THREE(name)                          \
+    RELIEF_OF_THREE(name, RELIEF_PLAIN, RELIEF_PLAIN, Float) \
+    RELIEF_OF_THREE(name, RELIEF_PLAIN, Float, RELIEF_PLAIN) \
+    RELIEF_OF_THREE(name, Float, RELIEF_PLAIN, RELIEF_PLAIN) \
+    RELIEF_OF_THREE(name, RELIEF_PLAIN, Float, Float)        \
+    RELIEF_OF_THREE(name, Float, RELIEF_PLAIN, Float)        \
+    RELIEF_OF_THREE(name, Float, Float, RELIEF_PLAIN)
+
+RELIEF_OF_PLAIN_TWO(operator+)
+RELIEF_OF_PLAIN_TWO(operator-)
+RELIEF_OF_PLAIN_TWO(operator*)
+RELIEF_OF_PLAIN_TWO(operator/)
+RELIEF_OF_PLAIN_TWO(min)
+RELIEF_OF_PLAIN_TWO(max)
+RELIEF_OF_PLAIN_TWO(step)
+RELIEF_OF_PLAIN_TWO(pow)
+RELIEF_OF_PLAIN_TWO(fmod)
+RELIEF_OF_PLAIN_TWO(atan2)
+RELIEF_OF_PLAIN_TWO(ldexp)
+RELIEF_OF_PLAIN_THREE(clamp)
+RELIEF_OF_PLAIN_THREE(lerp)
+RELIEF_OF_PLAIN_THREE(smoothstep)
+RELIEF_OF_PLAIN_THREE(mad)
+
+#undef RELIEF_PLAIN
+#undef RELIEF_OF_TWO
+#undef RELIEF_OF_THREE
+#undef RELIEF_OF_PLAIN_TWO
+#undef RELIEF_OF_PLAIN_THREE
+
 template <int n>
-LaneVector<Float, n> operator+(const glm::vec<n, float>& a, Float b)
+LaneVector<Float, n> mul(const glm::vec<n, float>& v, Float s)
 {
-    return LaneVector<Float, n>(a) + b;
+    return v * s;
 }
 template <int n>
-LaneVector<Float, n> operator+(Float a, const glm::vec<n, float>& b)
+LaneVector<Float, n> mul(Float s, const glm::vec<n, float>& v)
 {
-    return a + LaneVector<Float, n>(b);
+    return s * v;
+}
+
+// By a mask of pixels, or of components.
+template <int n>
+LaneVector<Float, n> select(const std::type_identity_t<LaneVector<Mask, n>>& m, const glm::vec<n, float>& a,
+                            const glm::vec<n, float>& b)
+{
+    return select(m, LaneVector<Float, n>(a), LaneVector<Float, n>(b));
 }
 template <int n>
-LaneVector<Float, n> operator-(const glm::vec<n, float>& a, Float b)
+LaneVector<Float, n> select(const std::type_identity_t<LaneVector<Mask, n>>& m, const glm::vec<n, float>& a, Float b)
 {
-    return LaneVector<Float, n>(a) - b;
+    return select(m, LaneVector<Float, n>(a), LaneVector<Float, n>(b));
 }
 template <int n>
-LaneVector<Float, n> operator-(Float a, const glm::vec<n, float>& b)
+LaneVector<Float, n> select(const std::type_identity_t<LaneVector<Mask, n>>& m, Float a, const glm::vec<n, float>& b)
 {
-    return a - LaneVector<Float, n>(b);
-}
-template <int n>
-LaneVector<Float, n> operator*(const glm::vec<n, float>& a, Float b)
-{
-    return LaneVector<Float, n>(a) * b;
-}
-template <int n>
-LaneVector<Float, n> operator*(Float a, const glm::vec<n, float>& b)
-{
-    return a * LaneVector<Float, n>(b);
-}
-template <int n>
-LaneVector<Float, n> operator/(const glm::vec<n, float>& a, Float b)
-{
-    return LaneVector<Float, n>(a) / b;
-}
-template <int n>
-LaneVector<Float, n> operator/(Float a, const glm::vec<n, float>& b)
-{
-    return a / LaneVector<Float, n>(b);
+    return select(m, LaneVector<Float, n>(a), LaneVector<Float, n>(b));
 }
 
 }  // namespace relief::inline RELIEF_WIDTH

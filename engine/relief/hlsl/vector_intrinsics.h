@@ -3,8 +3,8 @@
 //     max(v, 0)   lerp(a, b, t)   lerp(a, b, float3(0, 0.5f, 1))   clamp(v, 0, limits)
 //
 // A number, a single value, a plain vector of GLM or a field may stand for any vector, as with operators (vector.h);
-// only one of the arguments must be a vector of lanes already. Sums are taken from left to right: the order is part of
-// the result.
+// only one of the arguments must be of lanes already. Sums are taken from left to right: the order is part of the
+// result.
 #pragma once
 
 #include <limits>
@@ -13,6 +13,11 @@
 #include "relief/hlsl/swizzles.h"
 
 namespace relief::inline RELIEF_WIDTH::detail {
+
+// The plain numbers that become a T by themselves.
+template <class N, class T>
+concept NumberFor = Number<N> &&
+    (std::is_same_v<T, Float> || (std::is_same_v<T, Int> && WholeNumber<N>) || std::is_same_v<N, bool>);
 
 // A vector of function(x), function(y) ... of the components of one or more vectors.
 template <class Result, class Function, class T, int n, class... Others>
@@ -60,15 +65,63 @@ struct VectorIntrinsics;
         return each<V>([](auto x, auto y, auto z) { return name(x, y, z); }, a, b, c); \
     }
 
+// Those of numbers of both kinds.
+template <class T, int n>
+struct NumberIntrinsics
+{
+    using V = LaneVector<T, n>;
+    using B = LaneVector<Mask, n>;
+
+    RELIEF_OF_EACH(V, abs)
+    RELIEF_OF_EACH(V, sign)
+    RELIEF_OF_EACH_TWO(min)
+    RELIEF_OF_EACH_TWO(max)
+    RELIEF_OF_EACH_THREE(clamp)
+    friend V mad(const V& a, const V& b, const V& c) { return a * b + c; }
+
+    friend V select(Mask m, const V& a, const V& b)
+    {
+        return each<V>([m](T x, T y) { return select(m, x, y); }, a, b);
+    }
+    friend V select(const B& m, const V& a, const V& b)
+    {
+        return each<V>([](Mask k, T x, T y) { return select(k, x, y); }, m, a, b);
+    }
+
+    // Per pixel: whether any component is not 0, or none is.
+    friend Mask any(const V& v) { return any(v != V(0)); }
+    friend Mask all(const V& v) { return all(v != V(0)); }
+
+    friend T dot(const V& a, const V& b)
+    {
+        if constexpr (n == 2) return a.x * b.x + a.y * b.y;
+        if constexpr (n == 3) return a.x * b.x + a.y * b.y + a.z * b.z;
+        if constexpr (n == 4) return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+    }
+
+    // HLSL's mul of vectors: two make their dot product, a number scales.
+    friend T mul(const V& a, const V& b) { return dot(a, b); }
+    friend V mul(const V& v, T s) { return v * s; }
+    friend V mul(T s, const V& v) { return s * v; }
+    template <NumberFor<T> N>
+    friend V mul(const V& v, N s)
+    {
+        return v * s;
+    }
+    template <NumberFor<T> N>
+    friend V mul(N s, const V& v)
+    {
+        return s * v;
+    }
+};
+
 template <int n>
-struct VectorIntrinsics<Float, n>
+struct VectorIntrinsics<Float, n> : NumberIntrinsics<Float, n>
 {
     using V = LaneVector<Float, n>;
     using I = LaneVector<Int, n>;
     using B = LaneVector<Mask, n>;
 
-    RELIEF_OF_EACH(V, abs)
-    RELIEF_OF_EACH(V, sign)
     RELIEF_OF_EACH(V, saturate)
     RELIEF_OF_EACH(V, floor)
     RELIEF_OF_EACH(V, ceil)
@@ -99,18 +152,14 @@ struct VectorIntrinsics<Float, n>
     RELIEF_OF_EACH(B, isfinite)
     RELIEF_OF_EACH(I, asint)
 
-    RELIEF_OF_EACH_TWO(min)
-    RELIEF_OF_EACH_TWO(max)
     RELIEF_OF_EACH_TWO(step)
     RELIEF_OF_EACH_TWO(pow)
     RELIEF_OF_EACH_TWO(fmod)
     RELIEF_OF_EACH_TWO(atan2)
     RELIEF_OF_EACH_TWO(ldexp)
 
-    RELIEF_OF_EACH_THREE(clamp)
     RELIEF_OF_EACH_THREE(smoothstep)
     friend V lerp(const V& a, const V& b, const V& t) { return a + (b - a) * t; }
-    friend V mad(const V& a, const V& b, const V& c) { return a * b + c; }
     friend void sincos(V v, V& sine, V& cosine)
     {
         sine = sin(v);
@@ -121,28 +170,14 @@ struct VectorIntrinsics<Float, n>
         whole = trunc(v);
         return v - whole;
     }
-
-    friend V select(Mask m, const V& a, const V& b)
+    friend V frexp(V v, V& exponent)
     {
-        return each<V>([m](Float x, Float y) { return select(m, x, y); }, a, b);
+        for (int i = 0; i < n; ++i) v[i] = frexp(v[i], exponent[i]);
+        return v;
     }
-    friend V select(const B& m, const V& a, const V& b)
-    {
-        return each<V>([](Mask k, Float x, Float y) { return select(k, x, y); }, m, a, b);
-    }
-
-    // Per pixel: whether any component is not 0, or none is.
-    friend Mask any(const V& v) { return any(v != V(0.0f)); }
-    friend Mask all(const V& v) { return all(v != V(0.0f)); }
 
     // --- of all components together ---
 
-    friend Float dot(const V& a, const V& b)
-    {
-        if constexpr (n == 2) return a.x * b.x + a.y * b.y;
-        if constexpr (n == 3) return a.x * b.x + a.y * b.y + a.z * b.z;
-        if constexpr (n == 4) return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
-    }
     friend Float length(const V& v) { return sqrt(dot(v, v)); }
     friend Float distance(const V& a, const V& b) { return length(a - b); }
 
@@ -176,21 +211,6 @@ struct VectorIntrinsics<Float, n>
     {
         return select(dot(incident, geometric) < 0.0f, normal, -normal);
     }
-
-    // HLSL's mul of vectors: two make their dot product, a number scales.
-    friend Float mul(const V& a, const V& b) { return dot(a, b); }
-    friend V mul(const V& v, Float s) { return v * s; }
-    friend V mul(Float s, const V& v) { return s * v; }
-    template <Number N>
-    friend V mul(const V& v, N s)
-    {
-        return v * s;
-    }
-    template <Number N>
-    friend V mul(N s, const V& v)
-    {
-        return s * v;
-    }
 };
 
 // normalize() where a square leaves the range of floats. A function of its own, because it hardly ever runs.
@@ -209,13 +229,10 @@ template <int n>
 }
 
 template <int n>
-struct VectorIntrinsics<Int, n>
+struct VectorIntrinsics<Int, n> : NumberIntrinsics<Int, n>
 {
     using V = LaneVector<Int, n>;
-    using B = LaneVector<Mask, n>;
 
-    RELIEF_OF_EACH(V, abs)
-    RELIEF_OF_EACH(V, sign)
     RELIEF_OF_EACH(V, countbits)
     RELIEF_OF_EACH(V, reversebits)
     RELIEF_OF_EACH(V, firstbitlow)
@@ -223,43 +240,6 @@ struct VectorIntrinsics<Int, n>
     friend LaneVector<Float, n> asfloat(const V& v)
     {
         return each<LaneVector<Float, n>>([](Int x) { return asfloat(x); }, v);
-    }
-
-    RELIEF_OF_EACH_TWO(min)
-    RELIEF_OF_EACH_TWO(max)
-    RELIEF_OF_EACH_THREE(clamp)
-    friend V mad(const V& a, const V& b, const V& c) { return a * b + c; }
-
-    friend V select(Mask m, const V& a, const V& b)
-    {
-        return each<V>([m](Int x, Int y) { return select(m, x, y); }, a, b);
-    }
-    friend V select(const B& m, const V& a, const V& b)
-    {
-        return each<V>([](Mask k, Int x, Int y) { return select(k, x, y); }, m, a, b);
-    }
-
-    friend Mask any(const V& v) { return any(v != V(0)); }
-    friend Mask all(const V& v) { return all(v != V(0)); }
-
-    friend Int dot(const V& a, const V& b)
-    {
-        if constexpr (n == 2) return a.x * b.x + a.y * b.y;
-        if constexpr (n == 3) return a.x * b.x + a.y * b.y + a.z * b.z;
-        if constexpr (n == 4) return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
-    }
-    friend Int mul(const V& a, const V& b) { return dot(a, b); }
-    friend V mul(const V& v, Int s) { return v * s; }
-    friend V mul(Int s, const V& v) { return s * v; }
-    template <WholeNumber N>
-    friend V mul(const V& v, N s)
-    {
-        return v * s;
-    }
-    template <WholeNumber N>
-    friend V mul(N s, const V& v)
-    {
-        return s * v;
     }
 };
 
