@@ -226,6 +226,7 @@ TEST_CASE("functions of each component take plain vectors of GLM beside single v
     CHECK(is(mad(ground, half, sky), 4.0f, 2.5f, 0.0f));
     CHECK(is(mul(ground, half), 0.0f, 0.5f, 1.0f));
     CHECK(is(mul(field, glm::vec2(1, 2)), 0.5f, 1.0f));
+    CHECK(is(refract(glm::vec2(0, -1), glm::vec2(0, 1), half), 0.0f, -1.0f));
     CHECK(is(select(half > 0, ground, sky), 0.0f, 1.0f, 2.0f));
     CHECK(is(select(half < 0, ground, 3), 3.0f, 3.0f, 3.0f));
     CHECK(is(select(bool3(true, false, true), half, sky), 0.5f, 2.0f, 0.5f));

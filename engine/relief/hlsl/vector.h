@@ -242,6 +242,12 @@ LaneVector<Float, n> mul(Float s, const glm::vec<n, float>& v)
     return s * v;
 }
 
+template <int n>
+LaneVector<Float, n> refract(const glm::vec<n, float>& incident, const glm::vec<n, float>& normal, Float eta)
+{
+    return refract(LaneVector<Float, n>(incident), LaneVector<Float, n>(normal), eta);
+}
+
 // By a mask of pixels, or of components.
 template <int n>
 LaneVector<Float, n> select(const std::type_identity_t<LaneVector<Mask, n>>& m, const glm::vec<n, float>& a,

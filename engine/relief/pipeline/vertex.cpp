@@ -28,7 +28,7 @@ void numberVertices(const DrawGeometry& draw, std::uint32_t first, std::uint32_t
                     std::uint32_t (&instance)[kLanes])
 {
     const bool isOneInstance = draw.verticesPerInstance == draw.vertexCount;
-    if (isOneInstance && count == kLanes) {
+    if (isOneInstance && count == kLanes) {  // mostly
         for (std::uint32_t i = 0; i < kLanes; ++i) {
             vertex[i] = first + draw.firstVertex + i;
             instance[i] = 0;
