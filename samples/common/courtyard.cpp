@@ -72,6 +72,9 @@ Hit intersect(const glm::vec3& origin, const glm::vec3& direction, const glm::ve
 
 Hit intersect(const glm::vec3& origin, const glm::vec3& direction, const Pillar& pillar)
 {
+    // Most rays pass a pillar by further off than half its diagonal, of which the square is 0.5.
+    const float x = pillar.x - origin.x, z = pillar.z - origin.z, across = direction.x * z - direction.z * x;
+    if (across * across > 0.6f * (direction.x * direction.x + direction.z * direction.z)) return {-1.0f, {}};
     return intersect(origin, direction, {pillar.x - kPillarHalf, -1.0f, pillar.z - kPillarHalf},
                      {pillar.x + kPillarHalf, kPillarTop, pillar.z + kPillarHalf});
 }
@@ -85,22 +88,38 @@ glm::vec3 lit(const glm::vec3& albedo, const glm::vec3& point, const glm::vec3& 
     return albedo * (kSunlight * sun + kSkylight);
 }
 
+// A disc of the sky that is cloud within `inner`, a cosine, and blue beyond `outer`.
+struct Puff
+{
+    glm::vec3 middle;
+    float outer, inner;
+};
+
+// The clouds, each a few puffs beside each other.
+std::array<Puff, 20> makePuffs()
+{
+    constexpr std::array<glm::vec3, 4> kClouds = {
+        {{0.8f, 0.75f, 0.5f}, {-0.5f, 0.9f, 0.75f}, {0.45f, 0.8f, -0.9f}, {-1.0f, 0.55f, 0.15f}}};
+    std::array<Puff, 20> puffs{};
+    std::size_t count = 0;
+    for (const glm::vec3& place : kClouds) {
+        const glm::vec3 middle = glm::normalize(place), aside = glm::normalize(glm::cross(middle, glm::vec3(0, 1, 0)));
+        for (int k = -2; k <= 2; ++k) {
+            const float size = 0.0055f - 0.0011f * static_cast<float>(k * k);
+            puffs[count++] = {glm::normalize(middle + aside * (0.09f * static_cast<float>(k))), 1.0f - 1.6f * size,
+                              1.0f - 0.5f * size};
+        }
+    }
+    return puffs;
+}
+
 glm::vec3 sky(const glm::vec3& d)
 {
     const float up = std::max(d.y, 0.0f), fall = (1.0f - up) * (1.0f - up);
     glm::vec3 color = glm::mix(glm::vec3(0.09f, 0.24f, 0.62f), kHaze, fall * fall);
-    // Puffs, each a few discs beside each other.
-    constexpr std::array<glm::vec3, 4> kClouds = {
-        {{0.8f, 0.75f, 0.5f}, {-0.5f, 0.9f, 0.75f}, {0.45f, 0.8f, -0.9f}, {-1.0f, 0.55f, 0.15f}}};
+    static const std::array<Puff, 20> puffs = makePuffs();
     float cloud = 0.0f;
-    for (const glm::vec3& place : kClouds) {
-        const glm::vec3 middle = glm::normalize(place), aside = glm::normalize(glm::cross(middle, glm::vec3(0, 1, 0)));
-        for (int k = -2; k <= 2; ++k) {
-            const glm::vec3 puff = glm::normalize(middle + aside * (0.09f * static_cast<float>(k)));
-            const float size = 0.0055f - 0.0011f * static_cast<float>(k * k);
-            cloud = std::max(cloud, rise(1.0f - 1.6f * size, 1.0f - 0.5f * size, glm::dot(d, puff)));
-        }
-    }
+    for (const Puff& puff : puffs) cloud = std::max(cloud, rise(puff.outer, puff.inner, glm::dot(d, puff.middle)));
     color = glm::mix(color, glm::vec3(1.15f, 1.12f, 1.1f), 0.9f * cloud);
     const float toSun = glm::dot(d, kTowardsSun);
     return color + glm::vec3(0.9f, 0.8f, 0.6f) * rise(0.93f, 1.0f, toSun) * 0.5f +
