@@ -1,10 +1,12 @@
 // Clipping at planes of the vertex program's own: SV_ClipDistance.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 
 #include "numbers.h"
 #include "pipeline_fixture.h"
+#include "relief/pipeline/clip.h"
 
 using namespace fixture;
 
@@ -176,6 +178,29 @@ TEST_CASE("clip distance: infinities and NaN cut, or do not, and nothing breaks 
     CHECK(pixelsNotEqualTo(draw(mesh, Given{-1e-40f}, CountCut{}, kCount, 0.0f), 0.0f) == 0);
     CHECK(pixelsNotEqualTo(draw(mesh, Given{-kInfinity}, CountCut{}, kCount, 0.0f), 0.0f) == 0);
     CHECK(pixelsNotEqualTo(draw(mesh, Given{kNan}, CountCut{}, kCount, 0.0f), 0.0f) == 0);
+}
+
+TEST_CASE("clip distance: eight planes that all but coincide leave no more corners than there is room for")
+{
+    // Found by a search for many: each plane cuts off several corners that lie on the one before but for their
+    // rounding.
+    const glm::vec4 corners[3] = {{0x1.51fd22p+4f, -0x1.d5e5e6p+2f, 0x1.8c2ad2p+0f, -0x1.2d12e4p+6f},
+                                  {0x1.d39176p+2f, 0x1.20b57ap+6f, 0x1.55a1d8p-3f, 0x1.022bc2p+2f},
+                                  {0x1.125cc8p+6f, -0x1.63488ep+6f, -0x1.6d20bp+0f, 0x1.7d0cccp+6f}};
+    const ClipLimits limits = {0.01f,
+                               0.01f,
+                               true,
+                               {{0x1.9641e4p+0f, 0x1.4dcfa6p-1f, -0x1.b1f42ep+0f},
+                                {0x1.9641e2p+0f, 0x1.4dcfb4p-1f, -0x1.b1f42ep+0f},
+                                {0x1.9641e8p+0f, 0x1.4dcfacp-1f, -0x1.b1f434p+0f},
+                                {0x1.964174p+0f, 0x1.4dceb2p-1f, -0x1.b1f342p+0f},
+                                {0x1.9641dcp+0f, 0x1.4dcfcap-1f, -0x1.b1f428p+0f},
+                                {0x1.9641e8p+0f, 0x1.4dcfaep-1f, -0x1.b1f434p+0f},
+                                {0x1.9641e6p+0f, 0x1.4dcfaap-1f, -0x1.b1f432p+0f},
+                                {0x1.9641dep+0f, 0x1.4dcfa8p-1f, -0x1.b1f42ap+0f}},
+                               8};
+    std::array<ClipVertex, kMaxClippedVertices> polygon;
+    CHECK(clipTriangle(corners, limits, polygon) == kMaxClippedVertices);
 }
 
 TEST_CASE("clip distance: a line is cut, too")

@@ -159,13 +159,16 @@ int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span
         const auto plane = static_cast<Plane>(p);
         if (isLeftOut(plane, limits)) continue;
         int kept = 0;
+        const auto keep = [&](const ClipVertex& v) {
+            if (kept < kMaxClippedVertices) next[kept++] = v;
+        };
         for (int i = 0; i < count; ++i) {
             const ClipVertex& a = polygon[i];
             const ClipVertex& b = polygon[(i + 1) % count];
             const double da = distance(plane, a, limits), db = distance(plane, b, limits);
-            if (da >= 0.0) next[kept++] = a;
-            if (da > 0.0 && db < 0.0) next[kept++] = cut(plane, limits, a, da, b, db);
-            if (da < 0.0 && db > 0.0) next[kept++] = cut(plane, limits, b, db, a, da);
+            if (da >= 0.0) keep(a);
+            if (da > 0.0 && db < 0.0) keep(cut(plane, limits, a, da, b, db));
+            if (da < 0.0 && db > 0.0) keep(cut(plane, limits, b, db, a, da));
         }
         std::swap(polygon, next);
         count = kept;

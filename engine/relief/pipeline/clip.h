@@ -27,12 +27,14 @@ struct ClipLimits
 // Those of a draw, for a triangle with these corners.
 ClipLimits clipLimits(const DrawGeometry& draw, const std::array<std::uint32_t, 3>& corners);
 
-inline constexpr int kMaxClippedVertices = 3 + 7 + kMaxClipDistances;  // a corner more for each plane
+// A corner more for each plane. Corners are rounded: planes of the program's own that all but coincide can each cut off
+// several of them, and what is more than this is left out.
+inline constexpr int kMaxClippedVertices = 3 + 7 + kMaxClipDistances;
 
 // Cuts a triangle at w >= kSmallestW, the near and far plane, the guard band's four sides and the program's own planes.
-// The result is a convex
-// polygon in the triangle's order: its vertex count, 0 if nothing is left. A point on a plane is inside. The new vertex
-// on an edge is computed from the inside end to the outside end, whichever triangle asks: neighbours get the same bits.
+// The result is a convex polygon in the triangle's order: its vertex count, 0 if nothing is left. A point on a plane is
+// inside. The new vertex on an edge is computed from the inside end to the outside end, whichever triangle asks:
+// neighbours get the same bits.
 int clipTriangle(const glm::vec4 corners[3], const ClipLimits& limits, std::span<ClipVertex, kMaxClippedVertices> out);
 
 // Cuts a line at the same planes, with the same arithmetic. The result is its two ends, in order, with weights of the
