@@ -219,16 +219,21 @@ TEST_CASE("multisampling: a picture is the mean of those with one sample in each
             const int width = random.between(20, 90), height = random.between(20, 90);
             const Mesh mesh = randomMesh(random, 200, width, height);
             const Framebuffer together = drawMoved(mesh, width, height, pattern.count, {0, 0}, state);
-            std::vector<glm::vec4> mean(together.color32f().size(), glm::vec4(0.0f));
+            std::vector<glm::vec4> mean(together.color32f().size(), glm::vec4(0.0f)), first;
+            std::vector<bool> areEqual(mean.size(), true);
             for (int s = 0; s < pattern.count; ++s) {
                 const Framebuffer alone =
                     drawMoved(mesh, width, height, 1, pattern.position[static_cast<std::size_t>(s)], state);
-                for (std::size_t i = 0; i < mean.size(); ++i)
+                if (s == 0) first.assign(alone.color32f().begin(), alone.color32f().end());
+                for (std::size_t i = 0; i < mean.size(); ++i) {
                     mean[i] += alone.color32f()[i] * (1.0f / static_cast<float>(pattern.count));
+                    areEqual[i] = areEqual[i] && alone.color32f()[i] == first[i];
+                }
                 if (s == 0) CHECK(std::ranges::equal(alone.depth(), together.depth()));
             }
             int wrong = 0;
-            for (std::size_t i = 0; i < mean.size(); ++i) wrong += mean[i] != together.color32f()[i];
+            for (std::size_t i = 0; i < mean.size(); ++i)
+                wrong += (areEqual[i] ? first[i] : mean[i]) != together.color32f()[i];
             CAPTURE(pattern.count);
             measured("pixels not the mean", wrong, 0);
         }
@@ -264,6 +269,30 @@ TEST_CASE("multisampling: a picture that is not cleared stays what it is")
         REQUIRE(frame.draw(mesh, FromPixels(viewport), Value{}, {.depthTest = Compare::never}));
         frame.run();
         CHECK(sameBits(target, before));
+    }
+}
+
+TEST_CASE("multisampling: the mean of equal samples is that sample, whatever a sum of them rounds to")
+{
+    Mesh corner;
+    addTriangle(corner, Corners{{{0, 0}, {500, 0}, {0, 500}}}, glm::vec4(1.0f));
+    for (const float color : {0.3f, 0x1p-149f, 0x1.1b1d6cp-126f, -0.0f, 1e30f}) {
+        CAPTURE(color);
+        for (const int samples : {2, 4, 8}) {
+            for (const int tile : {16, 64}) {  // a tile that nothing touches is not averaged
+                Framebuffer target = multisampled(64, 64, samples, Format::r32f, Store::keep);
+                Frame frame(target, {1, tile});
+                const Viewport viewport = exactViewport(64, 64);
+                frame.clear(glm::vec4(color));
+                frame.setViewport(viewport);
+                REQUIRE(frame.draw(corner, FromPixels(viewport), Value{}, {.cull = Cull::none}));
+                frame.run();
+                for (const int at : {15, 40}) {
+                    const float its = target.colorR32f()[static_cast<std::size_t>(at * 64 + at)];
+                    CHECK(std::bit_cast<std::uint32_t>(its) == std::bit_cast<std::uint32_t>(color));
+                }
+            }
+        }
     }
 }
 
@@ -386,6 +415,33 @@ TEST_CASE("multisampling: alpha to coverage draws alpha's share of the samples")
             CHECK(statistics.pixelsShaded == 16);
         }
     }
+}
+
+TEST_CASE("multisampling: alpha to coverage leaves a program alone that gives no first colour")
+{
+    struct Second
+    {
+        SV_Target<1> color;
+    };
+    struct OnlySecond
+    {
+        Second operator()(const Interpolated&) const { return {float4(1.0f)}; }
+    };
+    Mesh mesh;
+    addTriangle(mesh, Corners{{{-100, -100}, {9000, -100}, {-100, 9000}}}, glm::vec4(1, 1, 1, 0));
+    Framebuffer target =
+        *Framebuffer::create(8, 8, {{Format::rgba32f, Store::keep}, {Format::rgba32f, Store::keep}}, 4);
+    Frame frame(target, {1, 16});
+    const Viewport viewport = exactViewport(8, 8);
+    frame.clear(glm::vec4(0.0f));
+    frame.setViewport(viewport);
+    const RenderState state = {.cull = Cull::none, .alphaToCoverage = true};
+    REQUIRE(frame.draw(mesh, FromPixels(viewport), Value{}, state));  // leaves an alpha of 0 behind
+    REQUIRE(frame.draw(mesh, FromPixels(viewport), OnlySecond{}, state));
+    frame.run();
+    int drawn = 0;
+    for (const std::uint32_t word : target.words(1)) drawn += word == std::bit_cast<std::uint32_t>(1.0f);
+    CHECK(drawn == 64 * 4);
 }
 
 TEST_CASE("multisampling: a program alone gets the same values at centroids as at centres, where there is one sample")

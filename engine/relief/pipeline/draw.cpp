@@ -293,12 +293,12 @@ bool testEarly(const State& state, const TriangleInTile<true>& triangle, const C
 }
 
 // Which of these lanes the program has left, and whose alpha is enough for a sample: the first one takes the least, and
-// each one after it more.
+// each one after it more. A program without a first colour has no alpha.
 unsigned keptLanes(const Draw& draw, const ShadedBlock& block, unsigned lanes, int sample, int count)
 {
     if (draw.programs->discards) lanes &= ~block.discarded;
     if (draw.programs->outputs.coverage) lanes &= ((Int::load(block.more->coverage) & (1 << sample)) != 0).bits();
-    if (!draw.state.alphaToCoverage) return lanes;
+    if (!draw.state.alphaToCoverage || (draw.programs->outputs.targets & 1u) == 0) return lanes;
     const float least = (static_cast<float>(sample) + 0.5f) / static_cast<float>(count);
     return lanes & (Float::load(block.color[3]) >= least).bits();
 }

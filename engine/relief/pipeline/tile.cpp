@@ -143,23 +143,28 @@ void loadBlocks(std::int32_t* blocks, int blocksWide, TilePixels<const std::uint
     });
 }
 
-// The mean of a block's samples, `count` (a power of two) of them one after the other, in linear light. Equal ones give
-// themselves.
+// The mean of a block's samples, `count` (a power of two) of them one after the other, in linear light. Of equal ones
+// it is they themselves, whatever a sum of them would round to.
 template <Format format>
 void resolveColor(const std::int32_t* samples, int count, std::int32_t* to)
 {
     const float share = 1.0f / static_cast<float>(count);
     float4 sum = 0.0f;
+    constexpr auto size = static_cast<std::size_t>(wordsPerPixel(format));
+    std::array<Int, size> words, first;
+    Mask areEqual(true);
     for (int s = 0; s < count; ++s) {
-        std::array<Int, static_cast<std::size_t>(wordsPerPixel(format))> words;
-        for (Int& word : words) {
-            word = Int::load(samples);
+        for (std::size_t i = 0; i < size; ++i) {
+            words[i] = Int::load(samples);
             samples += kLanes;
+            if (s == 0) first[i] = words[i];
+            areEqual = areEqual & (words[i] == first[i]);
         }
         sum = sum + decodeColor<format>(words) * share;
     }
-    for (const Int& word : encodeColor<format>(sum)) {
-        word.store(to);
+    const std::array<Int, size> mean = encodeColor<format>(sum);
+    for (std::size_t i = 0; i < size; ++i) {
+        select(areEqual, first[i], mean[i]).store(to);
         to += kLanes;
     }
 }
