@@ -295,6 +295,39 @@ TEST_CASE("inspect: samples are counted pixel by pixel, and those of one texel a
     CHECK(left.values[at(16, 0)].x == 1.0f);
 }
 
+TEST_CASE("inspect: what a program gives beside its first colour stays as it is, however often it runs")
+{
+    struct Two
+    {
+        SV_Target<0> first;
+        SV_Target<1> second;
+    };
+    struct SampleTwice
+    {
+        sampler2D sampler;
+        Two operator()(const TextureInterpolators& i) const
+        {
+            const float4 color = tex2D(sampler, i.uv.xy());
+            return {color, color + ddx(i.uv.x)};
+        }
+    };
+    const Texture texture = textureOf(128);
+    const Mesh mesh = wholeScreenWithUv();
+    Framebuffer target =
+        *Framebuffer::create(kSize, kSize, {{Format::rgba32f, Store::keep}, {Format::rgba32f, Store::keep}});
+    Frame frame(target, {1, 16});
+    frame.clear(glm::vec4(0.0f));
+    REQUIRE(frame.draw(mesh, GiveUv{1.0f}, SampleTwice{{.texture = &texture}}, kDepthTested).has_value());
+    frame.run();
+    const std::span<const std::uint32_t> words = target.words(1);
+    const std::vector<std::uint32_t> before(words.begin(), words.end());
+    for (const char* const view : {"mip", "samples", "time"}) {
+        CAPTURE(view);
+        REQUIRE(inspect(frame, view).has_value());
+        CHECK(std::equal(before.begin(), before.end(), target.words(1).begin()));
+    }
+}
+
 TEST_CASE("inspect: time is a positive number everywhere")
 {
     const Inspection seen = seeSampled("time", {});

@@ -32,6 +32,8 @@ struct WatchedBlock
     FetchCounters runAgain(unsigned quads) const
     {
         ShadedBlock copy = block;
+        MoreOutputs more;
+        copy.more = &more;
         copy.quads = quads;
         const FetchCounters before = std::exchange(shading.fetches, {});
         draw.own.shadeBlocks({&copy, 1}, batch, corners);

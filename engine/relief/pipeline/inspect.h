@@ -34,7 +34,9 @@ struct Inspection
 void fitRange(Inspection& result, bool fromZero);
 
 // Runs the frame and looks. Where several draws cover a pixel it has the value of the last one that was not hidden or
-// thrown away; overdraw, samples and time are sums over all of them. All but time are the same for every number of
+// thrown away; overdraw, samples and time are sums over all of them. What
+// a program hides by its own depth or coverage, or alpha to coverage does, has its value all the same: that is known
+// only after it was noted. All but time are the same for every number of
 // threads; lanes and blocks are the processor's. Draws onto targets without colour are not seen. An error for a view
 // that the frame does not have.
 Expected<Inspection> inspect(Frame& frame, const std::string& view);
