@@ -13,6 +13,7 @@
 
 #include <doctest/doctest.h>
 
+#include "contents.h"
 #include "relief/mesh/bake.h"
 #include "relief/mesh/bake_error.h"
 #include "relief/mesh/bounds.h"
@@ -23,6 +24,8 @@
 #include "relief/mesh/spherical_uv.h"
 #include "relief/mesh/tangents.h"
 #include "relief/mesh/triangulate.h"
+#include "relief/pipeline/save.h"
+#include "relief/pipeline/target_texture.h"
 #include "relief/shading/camera.h"
 #include "relief/shading/environment.h"
 #include "relief/shading/lights.h"
@@ -177,6 +180,19 @@ TEST_CASE("rounding: cube maps, and what they become")
         Bits all;
         append(all, std::vector<glm::vec4>{firstLane(sh.A[0]), firstLane(sh.B[1]), firstLane(sh.A[2])});
         return all;
+    }));
+}
+
+TEST_CASE("rounding: the smallest halves of a target, as a texture and as a file")
+{
+    Framebuffer target = *Framebuffer::create(5, 3, Format::rgba16f, Store::keep);
+    for (auto& pixel : target.color16f()) pixel = {1, 17, 503, 0x3c00};
+    CHECK(isSame([&] { return bitsOf(*textureOf(target, 0)); }));
+    const TemporaryFolder folder;
+    CHECK(isSame([&] {
+        CHECK(writePfm(folder / "halves.pfm", target).has_value());
+        const std::string bytes = contents(folder / "halves.pfm");
+        return Bits(bytes.begin(), bytes.end());
     }));
 }
 

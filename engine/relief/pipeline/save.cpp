@@ -1,5 +1,6 @@
 #include "relief/pipeline/save.h"
 
+#include "relief/lanes/environment.h"
 #include "relief/pipeline/format.h"
 #include "relief/texture/image.h"
 
@@ -10,6 +11,7 @@ namespace {
 // Red, green and blue of every pixel of the first kind that there is; empty where nothing is a float.
 std::vector<float> floatsOf(const Framebuffer& target)
 {
+    const DefaultFloatingPoint environment;
     std::vector<float> numbers;
     for (const glm::vec4& c : target.color32f()) numbers.insert(numbers.end(), {c.x, c.y, c.z});
     if (!numbers.empty()) return numbers;

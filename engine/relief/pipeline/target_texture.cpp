@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "relief/lanes/environment.h"
 #include "relief/pipeline/format.h"
 
 namespace relief {
@@ -33,6 +34,7 @@ std::vector<float> decoded(std::span<const std::uint32_t> words)
 
 Expected<Texture> textureOf(const Framebuffer& target, int attachment)
 {
+    const DefaultFloatingPoint environment;
     const std::string name = "attachment " + std::to_string(attachment) + " of a target as a texture: ";
     const auto& attachments = target.attachments();
     if (attachment < 0 || attachment >= static_cast<int>(attachments.size()))
