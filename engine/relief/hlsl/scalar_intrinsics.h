@@ -79,7 +79,7 @@ inline Float fmod(Float x, Float y)
     const Float a = abs(x), b = abs(y);
     Float rest = a - b * floor(a / b);
     rest = select(rest < 0.0f, rest + b, rest);  // the quotient was rounded up
-    rest = select(rest >= b, Float(0.0f), rest);
+    rest = select((rest >= b) | (rest < 0.0f), Float(0.0f), rest);
     rest = select(isinf(y) & isfinite(x), a, rest);
     return select(isnan(rest), quietNan(), copySign(rest, x));
 }
