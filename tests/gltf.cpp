@@ -116,6 +116,16 @@ TEST_CASE("gltf: the same file as .glb, with a buffer beside it, and with a data
     const Expected<SceneFile> beside = readGltf(folder.write("a.gltf", file.gltf("my%20data.bin")).string());
     REQUIRE(beside.has_value());
     CHECK(beside->meshes[0].positions == expected);
+    // A file may be longer than the buffer, and not shorter.
+    folder.write("long.bin", file.bytes + "more");
+    const Expected<SceneFile> longer = readGltf(folder.write("a.gltf", file.gltf("long.bin")).string());
+    REQUIRE(longer.has_value());
+    CHECK(longer->meshes[0].positions == expected);
+    folder.write("short.bin", file.bytes.substr(1));
+    const Expected<SceneFile> shorter = readGltf(folder.write("a.gltf", file.gltf("short.bin")).string());
+    REQUIRE(!shorter.has_value());
+    CHECK(contains(shorter.error().message, "short.bin: has "));
+    CHECK(contains(shorter.error().message, "buffers[0].byteLength is "));
     CHECK(contains(errorOf(file.gltf("other.bin")), "other.bin: cannot open"));
     CHECK(contains(errorOf(file.gltf("data:text/html,x")), "a data URI"));
 }
@@ -427,6 +437,19 @@ TEST_CASE("gltf: the first camera with perspective")
     CHECK(scene.camera->nearPlane == 0.5f);
     CHECK(std::isinf(scene.camera->farPlane));
     CHECK(scene.notes == std::vector<std::string>{"orthographic cameras are left out"});
+
+    const auto error = [&file](const char* name, const json& value) {
+        GltfFile other = file;
+        other.json["cameras"][1]["perspective"][name] = value;
+        return errorOf(other);
+    };
+    CHECK(contains(error("yfov", 4), "cameras[1].perspective.yfov: is not 0.0018 to 3.12 radians; correct it"));
+    CHECK(contains(error("yfov", 0), "cameras[1].perspective.yfov: is not"));
+    CHECK(contains(error("znear", 0), "cameras[1].perspective.znear: is not"));
+    CHECK(contains(error("zfar", 0.5), "cameras[1].perspective.zfar: is not more than znear"));
+    CHECK(contains(error("znear", "1"), "cameras[1].perspective.znear is not a number"));
+    file.json["nodes"][2]["scale"] = {1, 1, 0};
+    CHECK(contains(errorOf(file), "nodes[2]: its matrix leaves its camera no direction"));
 }
 
 namespace {
@@ -523,6 +546,10 @@ TEST_CASE("gltf: names of what is not there")
     const auto error = [](const auto& change) { return errorAfter(change); };
     CHECK(
         contains(error([](File& f) { f.json["nodes"][0]["mesh"] = 1; }), "nodes[0].mesh: there is no mesh 1 among 1"));
+    CHECK(contains(error([](File& f) { f.json["nodes"][0]["camera"] = 7; }),
+                   "nodes[0].camera: there is no camera 7 among 0"));
+    CHECK(
+        contains(error([](File& f) { f.json["nodes"][0]["skin"] = 7; }), "nodes[0].skin: there is no skin 7 among 0"));
     CHECK(contains(error([](File& f) { f.json["nodes"][0]["children"] = {7}; }),
                    "nodes[0].children: there is no node 7 among 1"));
     CHECK(contains(error([](File& f) {
@@ -597,17 +624,42 @@ TEST_CASE("gltf: data that is out of its bounds, or not what it should be")
                        }),
                        "element 1 (meshes[0].primitives[0].attributes.POSITION) is not finite"));
     }
-    CHECK(contains(error([](File& f) {
-                       const std::vector<std::uint16_t> place = {4};
-                       const std::vector<float> value = {0, 0, 0};
-                       const int p = f.view(place.data(), 2), v = f.view(value.data(), 12);
-                       f.json["accessors"][0]["sparse"] = {{"count", 1},
-                                                           {"indices", {{"bufferView", p}, {"componentType", 5123}}},
-                                                           {"values", {{"bufferView", v}}}};
-                   }),
-                   "accessors[0].sparse.indices: there is no element 4 among 4"));
+    const auto sparse = [&](int componentType) {
+        return error([=](File& f) {
+            const std::vector<std::uint16_t> place = {4};
+            const std::vector<float> value = {0, 0, 0};
+            const int p = f.view(place.data(), 2), v = f.view(value.data(), 12);
+            f.json["accessors"][0]["sparse"] = {{"count", 1},
+                                                {"indices", {{"bufferView", p}, {"componentType", componentType}}},
+                                                {"values", {{"bufferView", v}}}};
+        });
+    };
+    CHECK(contains(sparse(5123), "accessors[0].sparse.indices: there is no element 4 among 4"));
+    for (const int other : {5120, 5122, 5126}) {
+        CHECK(contains(sparse(other), "accessors[0].sparse.indices.componentType: is no unsigned integer"));
+    }
     CHECK(contains(error([](File& f) { f.primitive()["mode"] = 7; }), "primitives[0].mode: there is no mode 7"));
-    CHECK(contains(error([](File& f) { f.json["nodes"][0]["matrix"] = {1, 2, 3}; }), "nodes[0].matrix: has 3 numbers"));
+    CHECK(contains(error([](File& f) {
+                       f.json["nodes"][0]["matrix"] = {1, 2, 3};
+                   }),
+                   "nodes[0].matrix is not a list of 16 numbers"));
+    for (const json& wrong : {json("x"), json(1), json({1, 2}), json({1, 2, "3"}), json({1, 2, {3}}), json(nullptr)}) {
+        CHECK(contains(error([&](File& f) { f.json["nodes"][0]["translation"] = wrong; }), "nodes[0].translation"));
+        CHECK(contains(error([&](File& f) {
+                           f.setMaterial({{"pbrMetallicRoughness", {{"baseColorFactor", wrong}}}});
+                       }),
+                       "materials[0].pbrMetallicRoughness.baseColorFactor"));
+    }
+    for (const json& wrong : {json("x"), json(true), json({1}), json::object()}) {
+        CHECK(contains(error([&](File& f) {
+                           f.setMaterial({{"pbrMetallicRoughness", {{"metallicFactor", wrong}}}});
+                       }),
+                       "materials[0].pbrMetallicRoughness.metallicFactor is not a number"));
+    }
+    CHECK(contains(error([](File& f) {
+                       f.setMaterial({{"alphaMode", "FOO"}});
+                   }),
+                   "materials[0].alphaMode is not OPAQUE, MASK or BLEND"));
     CHECK(contains(error([](File& f) { f.json["nodes"][0]["scale"] = {1e200, 1, 1}; }), "nodes[0]: its matrix"));
     CHECK(contains(error([](File& f) {
                        f.json["nodes"][0]["scale"] = {1e30, 1, 1};
@@ -654,13 +706,27 @@ TEST_CASE("gltf: small files that ask for too much")
     for (int i = 0; i < 2000; ++i) many.json["meshes"][0]["primitives"].push_back(many.primitive());
     for (int i = 0; i < 100; ++i) many.json["nodes"].push_back({{"mesh", 0}});
     CHECK(contains(errorOf(many), "the scene has more than 131072 primitives"));
-    // Zeros that no file holds.
-    CHECK(contains(errorAfter([](GltfFile& f) {
-                       f.json["accessors"].push_back({{"componentType", 5126}, {"count", 9000000}, {"type", "VEC3"}});
-                       f.primitive() = {{"attributes", {{"POSITION", 4}}}};
-                       f.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 4}}}});
+    // Zeros that no file holds, and the triangles that strips of them make: three vertices each, for they are flat.
+    constexpr std::uint32_t kMost = 5592407;  // as a strip, one vertex less than a scene may have
+    const auto withStrip = [](GltfFile& f, std::uint32_t count) {
+        f.json["accessors"].push_back({{"componentType", 5126}, {"count", count}, {"type", "VEC3"}});
+        f.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 4}}}, {"mode", 5}});
+    };
+    const char* const tooLarge = "meshes[0].primitives[1]: the scene has more than 16777216 vertices";
+    CHECK(contains(errorAfter([&](GltfFile& f) { withStrip(f, kMost + 1); }), tooLarge));
+    CHECK(contains(errorAfter([&](GltfFile& f) {  // together with the square's four
+                       withStrip(f, kMost);
                    }),
-                   "the scene has more than 16777216 vertices"));
+                   tooLarge));
+    // Many roots.
+    GltfFile roots = GltfFile::square();
+    json all = json::array();
+    for (int i = 0; i < 200000; ++i) {
+        roots.json["nodes"].push_back(json::object());
+        all.push_back(i);
+    }
+    roots.json["scenes"] = {{{"nodes", all}}};
+    CHECK(errorOf(roots).empty());
     const std::string deep = std::string(100000, '[') + std::string(100000, ']');
     CHECK(
         contains(errorOf("{\"asset\": {\"version\": \"2.0\"}, \"extras\": " + deep + "}"), "nested more than 64 deep"));

@@ -87,19 +87,9 @@ glm::dmat4 rotation(glm::dvec4 q)
             {0, 0, 0, 1}};
 }
 
-// parentFromNode, right-handed as in the file.
-Expected<glm::dmat4> matrixOf(const tinygltf::Node& node, const std::string& field)
+// parentFromNode, right-handed as in the file. checkGltfText has counted the numbers.
+glm::dmat4 matrixOf(const tinygltf::Node& node)
 {
-    const auto sized = [&](const char* name, const std::vector<double>& numbers, std::size_t size) -> Expected<void> {
-        if (numbers.empty() || numbers.size() == size) return {};
-        return fail(field + "." + name + ": has " + std::to_string(numbers.size()) + " numbers; give it " +
-                    std::to_string(size));
-    };
-    const Expected<void> checked = sized("matrix", node.matrix, 16)
-                                       .and_then([&] { return sized("rotation", node.rotation, 4); })
-                                       .and_then([&] { return sized("scale", node.scale, 3); })
-                                       .and_then([&] { return sized("translation", node.translation, 3); });
-    if (!checked) return tl::unexpected(checked.error());
     glm::dmat4 m(1.0);
     if (!node.matrix.empty()) {
         for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
@@ -122,10 +112,18 @@ bool isUsable(const glm::dmat4& m)
 
 // --- triangles ---
 
+// How many indices a list has that is made of these.
+std::size_t lengthOfList(std::size_t given, int mode)
+{
+    if (mode == TINYGLTF_MODE_TRIANGLES) return given - given % 3;
+    return given < 3 ? 0 : (given - 2) * 3;
+}
+
 // Strips and fans as lists, without what is left over (glTF 2.0, 3.7.2.1); reversed, as x is negated.
 std::vector<std::uint32_t> triangleList(const std::vector<std::uint32_t>& given, int mode)
 {
     std::vector<std::uint32_t> list;
+    list.reserve(lengthOfList(given.size(), mode));
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         for (const std::size_t corner : {a, c, b}) list.push_back(given[corner]);
     };
@@ -135,7 +133,6 @@ std::vector<std::uint32_t> triangleList(const std::vector<std::uint32_t>& given,
     } else if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
         for (std::size_t i = 0; i + 2 < count; ++i) add(i + 1, i + 2, 0);
     } else {
-        list.reserve(count);
         for (std::size_t i = 0; i + 2 < count; i += 3) add(i, i + 1, i + 2);
     }
     return list;
@@ -295,7 +292,7 @@ private:
     Expected<void> walk();
     Expected<std::vector<int>> roots() const;
     Expected<void> addMesh(const tinygltf::Node& node, const std::string& field, const glm::mat4& worldFromObject);
-    void addCamera(const tinygltf::Node& node, const glm::dmat4& worldFromNode);
+    Expected<void> addCamera(const tinygltf::Node& node, const std::string& field, const glm::dmat4& worldFromNode);
     Expected<void> addLight(const tinygltf::Node& node, const std::string& field, const glm::dmat4& worldFromNode);
     Expected<std::optional<std::size_t>> meshOf(std::size_t mesh, std::size_t primitive);
     Expected<Attributes> attributesOf(const tinygltf::Primitive& primitive, const std::string& field);
@@ -358,6 +355,7 @@ Expected<std::vector<int>> Reader::roots() const
     if (chosen >= file.scenes.size()) {
         return failMissing("scene", "scene", file.defaultScene, file.scenes.size());
     }
+    std::vector<bool> isRoot(file.nodes.size(), false);
     for (const int root : file.scenes[chosen].nodes) {
         const std::string field = element("scenes", chosen) + ".nodes";
         if (root < 0 || static_cast<std::size_t>(root) >= file.nodes.size()) {
@@ -367,9 +365,10 @@ Expected<std::vector<int>> Reader::roots() const
             return fail(field + ": node " + std::to_string(root) +
                         " is a child of another node, or of itself; export the file again");
         }
-        if (std::find(all.begin(), all.end(), root) != all.end()) {
+        if (isRoot[static_cast<std::size_t>(root)]) {
             return fail(field + ": node " + std::to_string(root) + " stands there twice; export the file again");
         }
+        isRoot[static_cast<std::size_t>(root)] = true;
         all.push_back(root);
     }
     return all;
@@ -391,14 +390,15 @@ Expected<void> Reader::walk()
         open.pop_back();
         const tinygltf::Node& node = file.nodes[static_cast<std::size_t>(step.node)];
         const std::string field = element("nodes", static_cast<std::size_t>(step.node));
-        const Expected<glm::dmat4> parentFromNode = matrixOf(node, field);
-        if (!parentFromNode) return tl::unexpected(parentFromNode.error());
-        const glm::dmat4 worldFromNode = step.worldFromParent * *parentFromNode;
+        const glm::dmat4 worldFromNode = step.worldFromParent * matrixOf(node);
         if (!isUsable(worldFromNode)) {
             return fail(field + ": its matrix, with its parents', is not of finite numbers; repair the file");
         }
         const glm::dmat4 world = leftHanded(worldFromNode);
-        if (node.camera >= 0) addCamera(node, world);
+        if (node.skin >= 0 && static_cast<std::size_t>(node.skin) >= file.skins.size()) {
+            return failMissing(field + ".skin", "skin", node.skin, file.skins.size());
+        }
+        if (const Expected<void> added = addCamera(node, field, world); !added) return added;
         if (const Expected<void> added = addLight(node, field, world); !added) return added;
         if (const Expected<void> added = addMesh(node, field, glm::mat4(world)); !added) return added;
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
@@ -439,16 +439,27 @@ Expected<void> Reader::addMesh(const tinygltf::Node& node, const std::string& fi
     return {};
 }
 
-// A camera looks along -z of its node; worldFromNode is left-handed.
-void Reader::addCamera(const tinygltf::Node& node, const glm::dmat4& worldFromNode)
+// The first one is the scene's. A camera looks along -z of its node; worldFromNode is left-handed.
+Expected<void> Reader::addCamera(const tinygltf::Node& node, const std::string& field, const glm::dmat4& worldFromNode)
 {
+    if (node.camera < 0) return {};
     const auto index = static_cast<std::size_t>(node.camera);
-    if (scene.camera || index >= file.cameras.size() || file.cameras[index].type != "perspective") return;
+    if (index >= file.cameras.size()) {
+        return failMissing(field + ".camera", "camera", node.camera, file.cameras.size());
+    }
+    if (scene.camera || file.cameras[index].type != "perspective") return {};
     const tinygltf::PerspectiveCamera& its = file.cameras[index].perspective;
+    const std::string camera = element("cameras", index) + ".perspective";
     const double degrees = its.yfov * 180.0 / std::numbers::pi;
+    if (!(degrees >= 0.1 && degrees <= 179.0)) return fail(camera + ".yfov: is not 0.0018 to 3.12 radians; correct it");
+    if (!(its.znear > 1e-30 && its.znear < 1e30)) return fail(camera + ".znear: is not 1e-30 to 1e30; correct it");
+    if (its.zfar != 0.0 && !(its.zfar > its.znear)) {  // 0: there is none
+        return fail(camera + ".zfar: is not more than znear; correct it");
+    }
     const glm::dvec3 forward = -glm::dvec3(worldFromNode[2]), up = glm::dvec3(worldFromNode[1]);
-    const bool directed = glm::dot(forward, forward) > 0.0 && glm::dot(up, up) > 0.0;
-    if (!directed || !(degrees >= 0.1 && degrees <= 179.0) || !(its.znear > 1e-30) || !(its.znear < 1e30)) return;
+    if (!(glm::dot(forward, forward) > 0.0 && glm::dot(up, up) > 0.0)) {
+        return fail(field + ": its matrix leaves its camera no direction; repair the file");
+    }
     const float near = floatOf(its.znear);
     scene.camera = {.position = glm::vec3(worldFromNode[3]),
                     .forward = glm::vec3(glm::normalize(forward)),
@@ -456,6 +467,7 @@ void Reader::addCamera(const tinygltf::Node& node, const glm::dmat4& worldFromNo
                     .fieldOfView = floatOf(degrees),
                     .nearPlane = near,
                     .farPlane = floatOf(its.zfar) > near ? floatOf(its.zfar) : HUGE_VALF};
+    return {};
 }
 
 // --- lights ---
@@ -585,17 +597,23 @@ Expected<std::optional<std::size_t>> Reader::meshOf(std::size_t meshIndex, std::
     if (!all) return tl::unexpected(all.error());
     Expected<std::vector<std::uint32_t>> given = indicesOf(primitive, field, all->positions.size());
     if (!given) return tl::unexpected(given.error());
+    // Flat triangles have three vertices each.
+    const bool isFlat = all->normals.empty();
+    const std::size_t length = lengthOfList(given->size(), mode);
+    if (indices + length > kMaxSceneIndices || (isFlat && verticesKept + length > kMaxSceneVertices)) {
+        return failTooLarge(field);
+    }
     std::vector<std::uint32_t> list = triangleList(*given, mode);
     if (list.empty()) return meshes[key] = std::nullopt;
-    if (all->normals.empty()) {
+    if (isFlat) {
         makeFlat(*all, list);
     } else {
         keepUsed(*all, list);
     }
     repairNormals(*all, list);
     verticesKept += all->positions.size();
-    indices += list.size();
-    if (verticesKept > kMaxSceneVertices || indices > kMaxSceneIndices) return failTooLarge(field);
+    indices += length;
+    if (verticesKept > kMaxSceneVertices) return failTooLarge(field);
 
     Expected<Mesh> mesh = complete(std::move(*all), std::move(list), scene.materials[*material]);
     if (!mesh) return fail(field + ": " + mesh.error().message);

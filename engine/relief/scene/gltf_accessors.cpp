@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "relief/bits.h"
+#include "relief/little_endian.h"
 #include "relief/memory.h"
 #include "relief/scene/tinygltf.h"
 
@@ -56,12 +57,18 @@ int componentsOf(int type)
     }
 }
 
-// A little-endian number of `size` bytes.
-std::uint32_t wordAt(const std::uint8_t* bytes, std::size_t size)
+// Of what counts elements and vertices.
+bool isUnsigned(int componentType)
 {
-    std::uint32_t word = 0;
-    for (std::size_t i = 0; i < size; ++i) word |= std::uint32_t{bytes[i]} << (8 * i);
-    return word;
+    return componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+           componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+           componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+// At most 4 bytes.
+std::uint32_t wordAt(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t size)
+{
+    return static_cast<std::uint32_t>(littleEndian(bytes, at, size));
 }
 
 // A component as a float (glTF 2.0, 3.6.2.2 for the normalized ones).
@@ -194,10 +201,9 @@ Expected<GltfAccessors::Layout> GltfAccessors::layoutOf(int index, int component
     const auto& sparse = accessor->sparse;
     const auto sparseCount = static_cast<std::size_t>(sparse.count);
     const std::string field = layout.field + ".sparse";
-    layout.placeSize =
-        sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT ? 0 : sizeOf(sparse.indices.componentType);
-    if (layout.placeSize == 0)
+    if (!isUnsigned(sparse.indices.componentType))
         return fail(field + ".indices.componentType: is no unsigned integer; export the file again");
+    layout.placeSize = sizeOf(sparse.indices.componentType);
     const auto read = [&](const char* name, int itsView, int offset,
                           std::size_t itsSize) -> Expected<Layout::Elements> {
         const auto bytes = view(itsView, field + name + ".bufferView");
@@ -227,8 +233,8 @@ Expected<std::vector<Number>> GltfAccessors::read(const Layout& layout, const Co
     std::vector<Number> numbers(layout.elements.count * components);
     const auto take = [&](const Layout::Elements& from, std::size_t element, std::size_t to) {
         for (std::size_t c = 0; c < components; ++c) {
-            const std::uint8_t* const bytes = from.bytes.data() + element * from.stride + c * layout.componentSize;
-            numbers[to * components + c] = convert(wordAt(bytes, layout.componentSize));
+            numbers[to * components + c] =
+                convert(wordAt(from.bytes, element * from.stride + c * layout.componentSize, layout.componentSize));
         }
     };
     if (!layout.elements.bytes.empty()) {
@@ -236,7 +242,7 @@ Expected<std::vector<Number>> GltfAccessors::read(const Layout& layout, const Co
     }
     if (!layout.places) return numbers;
     for (std::size_t i = 0; i < layout.places->count; ++i) {
-        const std::uint32_t place = wordAt(layout.places->bytes.data() + i * layout.placeSize, layout.placeSize);
+        const std::uint32_t place = wordAt(layout.places->bytes, i * layout.placeSize, layout.placeSize);
         if (place >= layout.elements.count) {
             return fail(layout.field + ".sparse.indices: there is no element " + std::to_string(place) + " among " +
                         std::to_string(layout.elements.count) + "; export the file again");
@@ -263,9 +269,7 @@ Expected<std::vector<std::uint32_t>> GltfAccessors::indices(int index, std::size
 {
     const Expected<Layout> layout = layoutOf(index, 1, user);
     if (!layout) return tl::unexpected(layout.error());
-    if (layout->componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-        layout->componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-        layout->componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+    if (!isUnsigned(layout->componentType)) {
         return fail(layout->field + ".componentType: " + user + " takes unsigned integers; export the file again");
     }
     Expected<std::vector<std::uint32_t>> numbers =

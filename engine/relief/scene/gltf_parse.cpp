@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <utility>
 #include <vector>
 
 #include "relief/file.h"
@@ -28,18 +29,40 @@ std::string samePath(const std::string& path, void*)
     return path;
 }
 
-// Leaves what went wrong in the string that `user` is.
+// What tinygltf is reading.
+struct Reading
+{
+    const std::string& path;  // the .gltf file's
+    std::vector<GltfBuffer> buffers;
+    std::string problem;
+};
+
+// Leaves what went wrong with the Reading that `user` is.
 bool readWhole(std::vector<unsigned char>* bytes, std::string*, const std::string& path, void* user)
 {
-    std::string& problem = *static_cast<std::string*>(user);
+    auto& [gltfPath, buffers, problem] = *static_cast<Reading*>(user);
     if (path.find("data:") != std::string::npos) {
         problem = "a data URI of a buffer is not application/octet-stream in base64; export the file again";
         return false;
     }
     Expected<std::vector<std::uint8_t>> file = readFile(path);
-    if (!file) problem = file.error().message;
-    if (file) *bytes = std::move(*file);
-    return file.has_value();
+    if (!file) {
+        problem = file.error().message;
+        return false;
+    }
+    *bytes = std::move(*file);
+    // A buffer's file may be longer than the buffer, which tinygltf takes for an error.
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        if (buffers[i].uri.empty() || pathBeside(gltfPath, buffers[i].uri) != path) continue;
+        if (bytes->size() < buffers[i].byteLength) {
+            problem = path + ": has " + std::to_string(bytes->size()) + " bytes, and buffers[" + std::to_string(i) +
+                      "].byteLength is " + std::to_string(buffers[i].byteLength) + "; copy or export it again";
+            return false;
+        }
+        bytes->resize(static_cast<std::size_t>(std::exchange(buffers[i], {}).byteLength));  // each is read once
+        break;
+    }
+    return true;
 }
 
 // Of a picture in a data URI. Those in buffer views are not looked at: their view is not checked yet.
@@ -77,11 +100,13 @@ Expected<void> parseGltf(const std::string& path, tinygltf::Model& model)
     const auto failHere = [&path](const std::string& what) { return fail(path + ": " + what); };
     const Expected<GltfText> text = gltfText(*bytes);
     if (!text) return failHere(text.error().message);
-    if (const Expected<void> checked = checkGltfText(text->json); !checked) return failHere(checked.error().message);
+    Expected<std::vector<GltfBuffer>> buffers = checkGltfText(text->json);
+    if (!buffers) return failHere(buffers.error().message);
 
     tinygltf::TinyGLTF reader;
-    std::string readProblem, problem, warning;
-    reader.SetFsCallbacks({exists, samePath, readWhole, nullptr, &readProblem});
+    std::string problem, warning;
+    Reading reading = {path, std::move(*buffers), ""};
+    reader.SetFsCallbacks({exists, samePath, readWhole, nullptr, &reading});
     reader.SetImageLoader(keepBytes, nullptr);
     const auto load = [&] {
         const auto length = static_cast<unsigned>(text->json.size());
@@ -102,7 +127,7 @@ Expected<void> parseGltf(const std::string& path, tinygltf::Model& model)
     done = load();  // what checkGltfText did not refuse and the library throws for ends the program
 #endif
     while (problem.ends_with('\n') || problem.ends_with('.')) problem.pop_back();  // tinygltf's own words
-    if (!readProblem.empty()) return failHere(readProblem);
+    if (!reading.problem.empty()) return failHere(reading.problem);
     if (!done) return failHere((problem.empty() ? "is damaged" : problem) + "; export it again");
     if (!model.asset.version.starts_with("2.")) {
         return failHere("asset.version: is '" + model.asset.version + "'; convert it to glTF 2.0");

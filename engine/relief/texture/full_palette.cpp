@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "relief/little_endian.h"
+
 namespace relief {
 namespace {
 
@@ -41,9 +43,7 @@ void fillBmpPalette(Bytes& file)
 {
     constexpr std::size_t kFileHeader = 14, kOs2 = 12, kInfo = 40, kPixels = kFileHeader + kInfo + 4 * kEntries;
     const auto little = [&file](std::size_t at, std::size_t count) {
-        std::size_t number = 0;
-        for (std::size_t i = 0; i < count && at + i < file.size(); ++i) number |= std::size_t{file[at + i]} << 8 * i;
-        return number;
+        return static_cast<std::size_t>(littleEndian(file, at, count));
     };
     if (file.size() < kFileHeader + kOs2) return;
     const std::size_t pixels = little(10, 4), header = little(14, 4);

@@ -1,6 +1,8 @@
 // The header's fields are those of the TGA specification 2.0, section "TGA file header".
 #include "relief/texture/tga_check.h"
 
+#include "relief/little_endian.h"
+
 namespace relief {
 namespace {
 
@@ -17,8 +19,8 @@ bool isTga(std::span<const std::uint8_t> file)
 std::uint64_t fewestTgaBytes(std::span<const std::uint8_t> file)
 {
     if (!isTga(file)) return 0;
-    const auto little = [file](std::size_t at) { return std::uint64_t{file[at]} | std::uint64_t{file[at + 1]} << 8; };
-    const std::uint64_t pixels = little(12) * little(14), bytesPerPixel = (file[16] + 7u) / 8u;
+    const std::uint64_t pixels = littleEndian(file, 12, 2) * littleEndian(file, 14, 2),
+                        bytesPerPixel = (file[16] + 7u) / 8u;
     const bool isRunLengthEncoded = (file[2] & 8) != 0;
     if (!isRunLengthEncoded) return kHeader + pixels * bytesPerPixel;
     return kHeader + (pixels + 127) / 128 * (1 + bytesPerPixel);  // each packet is a count and at least one pixel

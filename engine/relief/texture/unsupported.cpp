@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "relief/little_endian.h"
+
 namespace relief {
 namespace {
 
@@ -16,12 +18,10 @@ bool beginsWith(Bytes file, std::string_view signature)
     return std::string_view(reinterpret_cast<const char*>(file.data()), file.size()).starts_with(signature);
 }
 
-// Of `count` bytes, the lowest first; 0 beyond the end.
+// At most 4 bytes.
 std::uint32_t little(Bytes file, std::size_t at, std::size_t count)
 {
-    std::uint32_t number = 0;
-    for (std::size_t i = 0; i < count && at + i < file.size(); ++i) number |= std::uint32_t{file[at + i]} << 8 * i;
-    return number;
+    return static_cast<std::uint32_t>(littleEndian(file, at, count));
 }
 
 // One run of at most 8 bits; stb scales such a channel to 8 bits and nothing else.
