@@ -364,7 +364,10 @@ TEST_CASE("image: a JPEG whose Huffman table is too long")
     const std::string hidden = jpeg.substr(0, jpeg.size() - 2) + std::string("\xff\x00\x7f\xff", 4) + table;
     CHECK(contains(errorOf(folder.write("a.jpg", hidden)), "bad Huffman table"));
 
-    // The same bytes in a comment are none of our business.
+    // Behind the end of the image, as in some cameras' films, tables and all else are none of our business.
+    CHECK(errorOf(folder.write("a.jpg", jpeg + table + std::string(1000, '\x7f'))) == "");
+
+    // Nor are the same bytes in a comment.
     const std::string comment = jpeg.substr(0, 2) + std::string("\xff\xfe\x00\x18", 4) + table + jpeg.substr(2);
     CHECK(errorOf(folder.write("a.jpg", comment)) == "");
 }

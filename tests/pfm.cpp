@@ -83,6 +83,17 @@ TEST_CASE("pfm: the first byte may be the largest, and one channel is grey")
           std::vector<float>{-3.0f, -3.0f, -3.0f, 1.0f, 0.25f, 0.25f, 0.25f, 1.0f});
 }
 
+TEST_CASE("pfm: lines may end with two characters")
+{
+    const TemporaryFolder folder;
+    // The number's first byte is a line feed.
+    for (const std::string header : {"Pf\n1 1\n1.0\n", "Pf\r\n1 1\r\n1.0\r\n", "Pf\r1 1\r1.0 "}) {
+        const Expected<ImageFile> image = readImage(folder.write("file.pfm", header + bigEndian({0x1.4p-107f})));
+        REQUIRE(image.has_value());
+        CHECK(std::get<ImageFloat>(*image).pixels[0] == 0x1.4p-107f);
+    }
+}
+
 TEST_CASE("pfm: bad files are an error of one line")
 {
     const TemporaryFolder folder;

@@ -2,7 +2,8 @@
 // lane on one mip level, goes straight through; where they are on several, a Level below is not a MipLevel, but
 // LaneLevels.
 //
-// All of this is inlined into three functions (finestIn, mipChainIn and implicitIn in sampler.cpp) for each texel
+// All of this is inlined into four functions (finestIn, mipChainIn and implicitIn in sampler.cpp, sampleIn in
+// cube_sampler.cpp) for each texel
 // format and kind of address modes: a call in between would move every register through memory. The rare cases that are
 // called take their parameters by value, or these would be in memory for the others, too.
 #pragma once

@@ -215,7 +215,10 @@ Expected<ImageFile> decodeImage(std::vector<std::uint8_t> bytes, const std::stri
     fillPalette(bytes);
     if (!jpegTablesFit(bytes)) return fail(name + ": is damaged (bad Huffman table); copy or export it again");
 
-    const int length = static_cast<int>(bytes.size());  // at most kMaxFileBytes
+    if (bytes.size() > kMaxFileBytes) {
+        return fail(name + ": its " + std::to_string(bytes.size()) + " bytes are more than 1 GiB; make it smaller");
+    }
+    const int length = static_cast<int>(bytes.size());
     int width = 0;
     int height = 0;
     int channelsInFile = 0;

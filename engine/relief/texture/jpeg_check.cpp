@@ -1,5 +1,5 @@
-// Walks a JPEG file's segments up to the first scan; from there on, where the compressed data must be decoded to know
-// where it ends, looks at everything that could be a table.
+// Walks a JPEG file's segments up to the end of the image. Between them lies the compressed data, in which a marker is
+// known by what follows its 0xff.
 #include "relief/texture/jpeg_check.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kStartOfImage = 0xd8;
 constexpr int kHuffmanTables = 0xc4;
-constexpr int kStartOfScan = 0xda;
+constexpr int kEndOfImage = 0xd9;
 constexpr int kNoMarker = -1;
 
 // The file's bytes, followed by zeros, as stb_image sees them.
@@ -52,17 +52,22 @@ bool tablesFit(Reader reader)
     return true;
 }
 
+// Whether a marker has a segment behind it: compressed data has 0 behind its own 0xff bytes, and restarts in between.
+bool hasSegment(int marker)
+{
+    return marker != 0 && !(marker >= 0xd0 && marker <= 0xd7);
+}
+
 }  // namespace
 
 bool jpegTablesFit(std::span<const std::uint8_t> file)
 {
     Reader reader{file};
     if (file.empty() || file[0] != 0xff || reader.nextMarker() != kStartOfImage) return true;
-    bool inScans = false;
-    for (int marker = reader.nextMarker(); marker != kNoMarker; marker = reader.nextMarker()) {
+    // What follows the end is no part of the picture: some cameras put a film there.
+    for (int marker = reader.nextMarker(); marker != kNoMarker && marker != kEndOfImage; marker = reader.nextMarker()) {
         if (marker == kHuffmanTables && !tablesFit(reader)) return false;
-        inScans = inScans || marker == kStartOfScan;
-        if (inScans) continue;
+        if (!hasSegment(marker)) continue;
         Reader ahead = reader;
         reader.skip(ahead.next16());
     }

@@ -1,5 +1,6 @@
 // One level of a texture in memory, and the next coarser one from it. What enters are texels, already linear; what
-// leaves is the average over the area that each coarse texel covers, exact and then rounded once, for any size.
+// leaves is the average over the area that each coarse texel covers, exact and then rounded once, for any size; of
+// floats it is summed in double.
 //
 // In memory a level has a frame one texel wide, which repeats the texels of the opposite side: with it, the 2x2 texels
 // of a bilinear fetch always lie side by side, also where a repeated texture meets itself.
@@ -140,8 +141,7 @@ struct LevelTable
 
 // The next coarser level. Every coarse texel is the average of the fine area it covers: 2x2 texels where both sides
 // are even; where a side is odd, 3 texels across with weights that shift from one end to the other, so that no part of
-// the picture counts more than another. Sums are exact (64-bit integers, doubles for floats); UNORM is rounded to
-// nearest.
+// the picture counts more than another. Sums of UNORM are exact; it is rounded to nearest.
 MipLevel coarserLevel(TexelFormat format, const MipLevel& fine);
 
 }  // namespace relief

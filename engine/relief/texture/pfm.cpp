@@ -1,6 +1,8 @@
-// PFM: a header of four words (kind, width, height, scale), one white space, and the rows from the lowest to the top.
+// PFM: a header of four words (kind, width, height, scale), one white space or line end, and the rows from the lowest
+// to the top.
 #include "relief/texture/pfm.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -22,7 +24,7 @@ struct Header
     std::size_t length = 0;
 };
 
-// The next word at `at`, which then is after the one white space that ends it.
+// The next word at `at`, which then is after the one white space, or the line end of two characters, that ends it.
 std::string_view nextWord(std::string_view text, std::size_t& at)
 {
     const auto isSpace = [&](std::size_t i) { return std::isspace(static_cast<unsigned char>(text[i])) != 0; };
@@ -30,7 +32,8 @@ std::string_view nextWord(std::string_view text, std::size_t& at)
     const std::size_t begin = at;
     while (at < text.size() && !isSpace(at)) ++at;
     const std::string_view word = text.substr(begin, at - begin);
-    if (at < text.size()) ++at;
+    const bool endsWithTwo = text.substr(at).starts_with("\r\n");
+    at = std::min(at + (endsWithTwo ? 2 : 1), text.size());
     return word;
 }
 

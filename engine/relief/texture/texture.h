@@ -53,7 +53,7 @@ public:
     // are 0 at first. An error as above.
     static Expected<Texture> forDrawing(TexelFormat format, int width, int height);
 
-    // The level to draw into next: all texels, and not the frame.
+    // The level to draw into next: all texels, and not the frame. Only a texture made by forDrawing() has one.
     MipLevel& hidden() { return *chain->hidden; }
 
     // What was drawn is level 0 from now on, what was level 0 is hidden, and coarser levels are built anew when they
