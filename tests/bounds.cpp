@@ -14,6 +14,11 @@ TEST_CASE("bounds: of the cube, of the quad, and of nothing")
     CHECK(cube.high == glm::vec3(0.5f));
     CHECK(cube.centre() == glm::vec3(0.0f));
     CHECK(cube.radius() == doctest::Approx(0.8660254));
+    for (const float size : {0x1p-110f, 0x1p-70f, 0x1p70f, 0x1p126f}) {
+        Mesh scaled = makeCube();
+        for (glm::vec3& p : scaled.positions) p *= 2.0f * size;
+        CHECK(boundsOf(scaled).radius() / size == doctest::Approx(1.7320508));
+    }
     CHECK(boundsOf(makeQuad()).high == glm::vec3(0.5f, 0.5f, 0.0f));
     CHECK(boundsOf(Mesh{}).high == glm::vec3(0.0f));
 }

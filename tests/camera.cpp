@@ -77,6 +77,17 @@ TEST_CASE("camera: six cameras through the faces of a cube see every direction o
     }
 }
 
+TEST_CASE("camera: far away, a direction is what it is at the origin")
+{
+    for (const float far : {1e5f, 16777216.0f, 1e20f}) {
+        for (int face = 0; face < kCubeFaces; ++face) {
+            const glm::mat3 here(lookThroughFace(glm::vec3(0), face)), there(lookThroughFace(glm::vec3(far), face));
+            CHECK(here == there);
+        }
+    }
+    CHECK(lookAlong({1, 2, 3}, {3, 0, 4}) == lookAt({1, 2, 3}, {4, 2, 7}));
+}
+
 TEST_CASE("camera: perspective of 90 degrees has the frustum's corners at -1 and 1, depth from 0 to 1")
 {
     const glm::mat4 m = perspective(90, 2, 0.5f, 8);

@@ -195,6 +195,18 @@ TEST_CASE("object transform: S-111 short vertex normals keep their direction, an
         }
     }
     measured("length off 1", worst, 4 * 0x1p-23);
+    // And those of objects of all sizes, mirrored ones too.
+    for (const float size : {1e-30f, 1e-12f, 1e12f, 1e30f}) {
+        CAPTURE(size);
+        for (const float x : {size, -size}) {
+            const glm::mat4 matrix = scale(x, 2.0f * size, size);
+            CHECK(mirrorSign(matrix) == (x < 0.0f ? -1.0f : 1.0f));
+            for (const glm::vec3& n : kNormals) {
+                const Vector normal = worldNormal(matrix, n), usual = worldNormal(scale(x / size, 2, 1), n);
+                CHECK(angle(normal, usual) <= 1e-4);
+            }
+        }
+    }
     for (const glm::vec3& none : {glm::vec3(0.0f), glm::vec3(kNan, 0, 1), glm::vec3(0, kNan, 0)}) {
         CHECK(length(worldNormal(kIdentity, none)) == 0.0);
     }

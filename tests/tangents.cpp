@@ -239,6 +239,16 @@ TEST_CASE("tangents: unit vectors and signs for numbers of all sizes")
     CHECK(countBad(result->tangents) == 0);
 }
 
+TEST_CASE("tangents: a vector of any length has a direction, unless all of it is zero or as good as zero")
+{
+    for (const float size : {1e-37f, 1e-25f, 1e-22f, 1e-16f, 1.0f, 1e16f, 1e20f, 1e38f}) {
+        CAPTURE(size);
+        const glm::vec3 unit = normalizedOrZero(glm::vec3(0.3f, -0.4f, 1.2f) * size);
+        CHECK(glm::length(unit - glm::vec3(0.3f, -0.4f, 1.2f) / 1.3f) < 1e-6f);
+    }
+    CHECK(normalizedOrZero({0.0f, -0.0f, 1e-40f}) == glm::vec3(0.0f, -0.0f, 1e-40f));
+}
+
 TEST_CASE("tangents: each corner of the mesh keeps its position, normal, uv and tangent")
 {
     const Mesh mesh = mikktspace_inputs::makeSoup(4);

@@ -22,8 +22,8 @@ std::uint32_t packed(const SrgbCode& c)
 // How far a value is on the way from the lowest to the highest.
 float partOf(const Inspection& seen, float value)
 {
-    const float range = seen.highest - seen.lowest;
-    return range > 0.0f ? std::clamp((value - seen.lowest) / range, 0.0f, 1.0f) : 0.0f;
+    const float lowest = seen.lowest * 0.5f, range = seen.highest * 0.5f - lowest;  // half, or it might be infinite
+    return range > 0.0f ? std::clamp((value * 0.5f - lowest) / range, 0.0f, 1.0f) : 0.0f;
 }
 
 SrgbCode colorOf(const Inspection& seen, const glm::vec4& value, std::uint32_t picture)

@@ -333,7 +333,7 @@ LitScene::View LitScene::view(float aspect) const
         const SceneCamera& its = *scene.camera;
         const glm::vec3 position = glm::vec3(worldFromScene * glm::vec4(its.position, 1.0f));
         return {perspective(its.fieldOfView, aspect, its.nearPlane * scale, its.farPlane * scale) *
-                    lookAt(position, position + its.forward, its.up),
+                    lookAlong(position, its.forward, its.up),
                 position};
     }
     Camera camera;

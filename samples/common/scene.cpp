@@ -336,12 +336,15 @@ void Scene::leftOut(std::string_view name, const Object& object) const
 
 namespace {
 
-// What `complete` makes of a mesh; the mesh itself if it cannot.
+// What `complete` makes of a mesh; the mesh itself if it cannot, and then there is a problem.
 const Mesh& madeOnce(std::map<const Mesh*, std::unique_ptr<Mesh>>& made, const Mesh& mesh,
-                     Expected<Mesh> (*complete)(Mesh))
+                     Expected<Mesh> (*complete)(Mesh), std::string& problem)
 {
     std::unique_ptr<Mesh>& result = made[&mesh];
-    if (!result) result = std::make_unique<Mesh>(complete(mesh).value_or(mesh));
+    if (result) return *result;
+    Expected<Mesh> completed = complete(mesh);
+    if (!completed && problem.empty()) problem = completed.error().message;
+    result = std::make_unique<Mesh>(completed ? std::move(*completed) : mesh);
     return *result;
 }
 
@@ -355,14 +358,14 @@ Expected<Mesh> withUvsAndTangents(Mesh mesh)
 
 const Mesh& Scene::withUvs(const Mesh& plain) const
 {
-    return plain.uvs.empty() ? madeOnce(log.uvs, plain, withSphericalUvs) : plain;
+    return plain.uvs.empty() ? madeOnce(log.uvs, plain, withSphericalUvs, log.problem) : plain;
 }
 
 const Mesh& Scene::withTangents(const Mesh& plain) const
 {
     if (!plain.tangents.empty()) return plain;
     if (log.tangents.count(&plain) == 0) note("tangents computed for " + plain.name);
-    return madeOnce(log.tangents, plain, withUvsAndTangents);
+    return madeOnce(log.tangents, plain, withUvsAndTangents, log.problem);
 }
 
 void Scene::cut(const Viewport& viewport, const Rectangle& scissor) const

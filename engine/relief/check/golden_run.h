@@ -17,7 +17,7 @@ namespace relief {
 struct GoldenOptions
 {
     std::string goldens;                       // the folder of the goldens: this program's, and nobody else's
-    std::string failures = "golden_failures";  // what failing checks leave, and a record of every check
+    std::string failures = "golden_failures";  // what failing checks leave, and a record of every check; likewise
     bool update = false;                       // the flag --update: see takeUpdateFlag()
 };
 

@@ -17,8 +17,13 @@ glm::vec3 Bounds::centre() const
 float Bounds::radius() const
 {
     const DefaultFloatingPoint environment;
-    const glm::vec3 half = high * 0.5f - low * 0.5f;
-    return settled(std::sqrt(half.x * half.x + half.y * half.y + half.z * half.z));
+    glm::vec3 half = high * 0.5f - low * 0.5f;
+    // By a power of two to about 1, or squares would leave the range of floats.
+    const float longest = std::max({half.x, half.y, half.z});
+    int exponent = 0;
+    if (std::isfinite(longest)) std::frexp(longest, &exponent);
+    for (int i = 0; i < 3; ++i) half[i] = std::ldexp(half[i], -exponent);
+    return settled(std::ldexp(std::sqrt(half.x * half.x + half.y * half.y + half.z * half.z), exponent));
 }
 
 float Bounds::squaredDistance(const glm::vec3& point) const

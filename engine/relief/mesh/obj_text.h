@@ -2,7 +2,6 @@
 // right-handed space and its own winding. What becomes of it is the business of obj.cpp.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>

@@ -295,7 +295,11 @@ glm::vec3 normalizedOrZero(const glm::vec3& v)
 {
     constexpr float kSmallest = std::numeric_limits<float>::min();
     const bool isZero = std::fabs(v.x) <= kSmallest && std::fabs(v.y) <= kSmallest && std::fabs(v.z) <= kSmallest;
-    return isZero ? v : (1.0f / std::sqrt(glm::dot(v, v))) * v;
+    if (isZero) return v;
+    const float square = glm::dot(v, v);
+    if (square > 1e-30f && square < HUGE_VALF) return (1.0f / std::sqrt(square)) * v;
+    const glm::dvec3 exact = v;  // squares of floats are within its range
+    return glm::vec3(exact / std::sqrt(glm::dot(exact, exact)));
 }
 
 }  // namespace relief

@@ -30,7 +30,13 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 glm::mat4 lookAt(const glm::vec3& position, const glm::vec3& target, const glm::vec3& up)
 {
     const DefaultFloatingPoint environment;
-    const glm::vec3 forward = glm::normalize(target - position);
+    return lookAlong(position, target - position, up);
+}
+
+glm::mat4 lookAlong(const glm::vec3& position, const glm::vec3& direction, const glm::vec3& up)
+{
+    const DefaultFloatingPoint environment;
+    const glm::vec3 forward = glm::normalize(direction);
     const glm::vec3 other = std::abs(up.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
     const bool alongUp = std::abs(glm::dot(forward, up)) > 0.9999f;
     const glm::vec3 right = glm::normalize(glm::cross(alongUp ? other : up, forward));
@@ -44,7 +50,7 @@ glm::mat4 lookAt(const glm::vec3& position, const glm::vec3& target, const glm::
 glm::mat4 lookThroughFace(const glm::vec3& position, int face)
 {
     const CubeFaceAxes& axes = kCubeFaceAxes[static_cast<std::size_t>(face)];
-    return lookAt(position, position + glm::vec3(axes.middle), glm::vec3(axes.up));
+    return lookAlong(position, glm::vec3(axes.middle), glm::vec3(axes.up));
 }
 
 glm::mat4 perspective(float fieldOfView, float aspect, float nearPlane, float farPlane)

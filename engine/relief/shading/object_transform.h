@@ -3,7 +3,7 @@
 // perpendicular under any scale, needs no division, and is right for singular and mirrored matrices too.
 #pragma once
 
-#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
 
 #include "relief/hlsl/intrinsics.h"
 
@@ -22,28 +22,13 @@ struct ObjectTransform
     ObjectTransform(const glm::mat4& clipFromWorld, const glm::mat4& worldFromObject);
 };
 
-namespace detail {
-
-inline float determinantSign(const glm::mat3& m)
-{
-    return glm::dot(m[0], glm::cross(m[1], m[2])) < 0.0f ? -1.0f : 1.0f;
-}
-
-}  // namespace detail
-
 // -1 for a matrix that mirrors (a negative determinant), 1 for any other: unity_WorldTransformParams.w.
-inline float mirrorSign(const glm::mat4& m)
-{
-    return detail::determinantSign(glm::mat3(m));
-}
+float mirrorSign(const glm::mat4& m);
 
 // The cofactor matrix of m times the sign of its determinant (+1 where that is 0). Its columns are cross products of
-// m's columns: it equals |det m| * transpose(inverse(m)) wherever the inverse exists.
-inline glm::mat3 normalMatrix(const glm::mat3& m)
-{
-    const float sign = detail::determinantSign(m);
-    return {glm::cross(m[1], m[2]) * sign, glm::cross(m[2], m[0]) * sign, glm::cross(m[0], m[1]) * sign};
-}
+// m's columns: it equals |det m| * transpose(inverse(m)) wherever the inverse exists. Where a product of four of m's
+// numbers, as a normal's square is, might leave the range of floats, it is that times a power of two.
+glm::mat3 normalMatrix(const glm::mat3& m);
 
 inline float4 UnityObjectToClipPos(const ObjectTransform& object, const float4& position)
 {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <concepts>
-#include <utility>
 
 #include "relief/hlsl/derivatives.h"
 #include "relief/trace/events.h"
