@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include "relief/mesh/bounds.h"
@@ -53,7 +54,7 @@ Mesh fitted(Mesh mesh)
     // By halves, since what is far apart may be further than floats go.
     float extent = 0.0f;
     for (int i = 0; i < 3; ++i) extent = std::max(extent, bounds.high[i] * 0.5f - bounds.low[i] * 0.5f);
-    const float scale = extent > 0.0f ? std::min(1.0f / extent, 1e30f) : 2.0f;
+    const float scale = extent > 0.0f ? std::min(1.0f / extent, std::numeric_limits<float>::max()) : 2.0f;
     for (glm::vec3& p : mesh.positions) p = (p * 0.5f - bounds.low * 0.25f - bounds.high * 0.25f) * scale;
     return mesh;
 }
