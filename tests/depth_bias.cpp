@@ -59,12 +59,15 @@ TEST_CASE("depth bias: the slope is the larger of the two, in any winding and in
     CHECK(depthOf(large, {.slope = 1.0f}) == doctest::Approx(there + 1.0f / 256.0f));
 }
 
-TEST_CASE("depth bias: both together are limited, and depth stays within 0 and 1")
+TEST_CASE("depth bias: both together are limited on the limit's side, and depth stays within 0 and 1")
 {
     const float plain = depthOf(kLeaning, {});
-    CHECK(depthOf(kLeaning, {.slope = 16.0f, .limit = 1.0f / 128.0f}) == plain + 1.0f / 128.0f);
-    CHECK(depthOf(kLeaning, {.slope = -16.0f, .limit = 1.0f / 128.0f}) == plain - 1.0f / 128.0f);
-    CHECK(depthOf(kLeaning, {.slope = 1.0f, .limit = 1.0f / 128.0f}) == plain + 1.0f / 256.0f);
+    for (const float sign : {1.0f, -1.0f}) {
+        const float limit = sign / 128.0f;
+        CHECK(depthOf(kLeaning, {.slope = sign * 16.0f, .limit = limit}) == plain + limit);
+        CHECK(depthOf(kLeaning, {.slope = sign * 1.0f, .limit = limit}) == plain + limit / 2.0f);
+        CHECK(depthOf(kLeaning, {.slope = sign * -16.0f, .limit = limit}) == plain - 8.0f * limit);
+    }
     CHECK(depthOf(kLeaning, {.slope = 1e9f}) == 1.0f);  // as far as what is cleared: not drawn
     CHECK(depthOf(kLeaning, {.slope = -1e9f}) == 0.0f);
     const glm::vec3 steep[3] = {{0, 0, -1e30f}, {64, 0, 1e30f}, {0, 64, 1e30f}};

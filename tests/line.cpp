@@ -167,6 +167,22 @@ TEST_CASE("line: what is behind a surface is hidden, what is in front is seen")
     }
 }
 
+TEST_CASE("line: a depth bias does not move it")
+{
+    Mesh line;
+    addLine(line, {{0.0f, 4.5f, 0.25f, 1.0f}}, {{64.0f, 4.5f, 0.75f, 1.0f}});
+    Framebuffer plain = makeTarget(64, 8), biased = makeTarget(64, 8);
+    static constexpr RenderState kState = lineState<1>(kPaint);
+    static constexpr RenderState kBiased = [] {
+        RenderState state = kState;
+        state.depthBias = {1000.0f, 4.0f, 0.0f};
+        return state;
+    }();
+    drawPixels<kState>(plain, line, Position{});
+    drawPixels<kBiased>(biased, line, Position{});
+    CHECK(biased.samePixels(plain));
+}
+
 TEST_CASE("line: through the eye, beyond the guard band, NaN, infinite, without length")
 {
     Framebuffer target = makeTarget(64, 64);

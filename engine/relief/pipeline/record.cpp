@@ -86,6 +86,7 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
                  {},
                  {},
                  {}};
+    if (state.primitive == Primitive::lines) draw.state.depthBias = {};
     const std::size_t used = std::min<std::size_t>(part.count, rest);
     if (used == 0 || part.instances == 0) return draw;
     for (const Field& field : programs.vertexData) {

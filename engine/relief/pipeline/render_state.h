@@ -70,7 +70,8 @@ enum class Primitive
 
 // Moves a triangle's depth away, so that a surface does not hide behind its own shadow map: `constant` steps of a float
 // as large as the triangle's largest depth, and `slope` times what depth changes by from a pixel to the next one, to
-// the right or down, whichever is more; both together within +-`limit`, where that is not 0 (D3D 11.3, 15.10).
+// the right or down, whichever is more; both together at most `limit` where that is above 0, and at least `limit` where
+// it is below (D3D 11.3, 15.10). Lines stay where they are.
 struct DepthBias
 {
     float constant = 0.0f, slope = 0.0f, limit = 0.0f;

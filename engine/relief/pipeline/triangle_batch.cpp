@@ -91,8 +91,8 @@ Float biasOf(const TriangleBatch& batch, const Corners& c, const Float (&z)[3], 
         const Float slope = higher(across, down) * perPixel;
         sum = sum + bias.slope * select(isnan(slope), Float(std::numeric_limits<float>::max()), slope);
     }
-    const float limit = bias.limit == 0.0f ? 1e30f : bias.limit < 0.0f ? -bias.limit : bias.limit;  // finite anyhow
-    return clamp(sum, -limit, limit);
+    // On the limit's side only; finite anyhow.
+    return clamp(sum, bias.limit < 0.0f ? bias.limit : -1e30f, bias.limit > 0.0f ? bias.limit : 1e30f);
 }
 
 void setDepth(TriangleBatch& batch, const Float (&z)[3])
