@@ -547,6 +547,26 @@ TEST_CASE("frame: odd viewports, inside, outside and larger than the target (S-1
     }
 }
 
+TEST_CASE("frame: the one column or row that is seen of the largest viewport at the last pixel (S-113)")
+{
+    Mesh mesh;
+    addTriangle(mesh, {{-1, -1, 0.5f, 1}}, {{-1, 1, 0.5f, 1}}, {{1, 1, 0.5f, 1}});
+    addTriangle(mesh, {{-1, -1, 0.5f, 1}}, {{1, 1, 0.5f, 1}}, {{1, -1, 0.5f, 1}});
+    for (const bool isColumn : {true, false}) {
+        const int last = kMaxTargetSize - 1;
+        Framebuffer target = isColumn ? makeTarget(kMaxTargetSize, 2) : makeTarget(2, kMaxTargetSize);
+        Frame frame(target, {1, 64});
+        frame.clear(glm::vec4(0.0f));
+        frame.setViewport(isColumn ? Viewport{last, 0, kMaxTargetSize, 2} : Viewport{0, last, 2, kMaxTargetSize});
+        frame.draw(mesh, FromClip{}, One{}, kCount);
+        const Statistics statistics = frame.run();
+        CHECK(statistics.pixelsShaded == 2);
+        CHECK(statistics.trianglesClipped == 0);
+        CHECK(pixel(target, isColumn ? last : 0, isColumn ? 0 : last) == glm::vec4(1.0f));
+        CHECK(pixel(target, isColumn ? last : 1, isColumn ? 1 : last) == glm::vec4(1.0f));
+    }
+}
+
 TEST_CASE("frame: a viewport inside a larger target gives the same pixels (S-113)")
 {
     Random random(87);

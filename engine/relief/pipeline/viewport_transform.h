@@ -45,14 +45,15 @@ struct ViewportTransform
     }
 
 private:
-    // The guard band in units of the viewport's half size, one pixel narrower than what the integers can hold, and
-    // never so wide that |x| times its inverse could lose a visible vertex.
+    // The guard band in units of the viewport's half size: one pixel narrower than what the integers can hold, since a
+    // line is moved by as much, and never narrower than the viewport. Where a visible one reaches into that pixel, at
+    // 16383 and 16384 wide, the band is the viewport itself, and differences within it are far below 2^24.
     static float inverseGuard(int origin, int size)
     {
         const float half = static_cast<float>(size) * 0.5f;
         const float centre = static_cast<float>(origin) + half;
         const float room = static_cast<float>(kGuardBand - 1) - (centre < 0.0f ? -centre : centre);
-        return half / room;
+        return half / (room < half ? half : room);
     }
 };
 
