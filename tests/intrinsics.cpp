@@ -254,12 +254,14 @@ TEST_CASE("fmod: of x's sign, below |y|, and what the division has in common wit
     CHECK(is(fmod(Float(1.0f), Float(kInfinity)), 1.0f));
     CHECK(all(isnan(fmod(Float(1.0f), Float(0.0f)))));
     CHECK(all(isnan(fmod(Float(kInfinity), Float(2.0f)))));
+    Float rest = 5.5f;
+    CHECK(is(rest %= 2.0f, 1.5f));
     CHECK(is(fmod(Float(1e38f), Float(1e-30f)), 0.0f));
     RandomBits random;
     for (int n = 0; n < 4000; ++n) {
         // Quotients beyond 2^25, too.
         const Float x = randomFloat(random) * (n % 2 == 0 ? 1e3f : 1e10f), y = randomFloat(random);
-        const Float rest = fmod(x, y);
+        rest = fmod(x, y);
         REQUIRE(all(abs(rest) < abs(y)));
         for (int i = 0; i < kLanes; ++i) {
             const double off = std::abs(double{rest[i]} - std::fmod(double{x[i]}, double{y[i]}));

@@ -35,6 +35,14 @@ TEST_CASE("Int: compound assignment")
     CHECK((a += Int(4))[0] == 7);
     CHECK((a -= Int(10))[0] == -3);
     CHECK(a[kLanes - 1] == -3);
+    CHECK(all((a *= -7) == 21));
+    CHECK(all((a /= 2) == 10));
+    CHECK(all((a %= 7) == 3));
+    CHECK(all((a <<= 4) == 48));
+    CHECK(all((a |= 3) == 51));
+    CHECK(all((a &= -3) == 49));
+    CHECK(all((a ^= -1) == -50));
+    CHECK(all((a >>= 1) == -25));
 }
 
 TEST_CASE("Int: and, or, exclusive or")
@@ -164,4 +172,17 @@ TEST_CASE("Int: shifts by each lane's own number, of which five bits count, and 
     Int product = value;
     product *= 3;
     CHECK(all(product == value * 3));
+}
+
+TEST_CASE("Int: of one number of places, too, only the lowest five bits count")
+{
+    for (const int places : {0, 31, 32, 33, 63, -1, -31, kIntMin}) {
+        volatile int hidden = places;  // the compiler must not work it out
+        const int bits = hidden;
+        CAPTURE(bits);
+        const Int numbers = Int::load(kInts.data());
+        CHECK(all((numbers << bits) == numbers << Int(bits)));
+        CHECK(all((numbers >> bits) == numbers >> Int(bits)));
+        CHECK(all(shiftRightLogical(numbers, bits) == shiftRightLogical(numbers, places & 31)));
+    }
 }

@@ -179,6 +179,12 @@ TEST_CASE("vector: integers")
     CHECK(is(select(v < 0, 0, v), {1, 0, 12}));
     CHECK(is(asfloat(asint(kThree)), {1, 2, 4}));
 }
+    int3 changing = v;
+    CHECK(is(changing <<= int3(1, 2, 3), {2, -8, 96}));
+    CHECK(is(changing %= 7, {2, -1, 5}));
+    CHECK(is(changing ^= 3, {1, -4, 6}));
+    CHECK(is(changing >>= 1, {0, -2, 3}));
+}
 
 TEST_CASE("vector: kComponents and component() of floats and integers, single and in vectors")
 {

@@ -87,6 +87,10 @@ inline Float operator%(Float x, Float y)
 {
     return fmod(x, y);
 }
+inline Float& operator%=(Float& x, Float y)
+{
+    return x = x % y;
+}
 inline Float modf(Float x, Float& whole)
 {
     whole = trunc(x);

@@ -180,6 +180,10 @@ struct LaneVector : detail::Components<T, n>, detail::VectorOperators<T, n>, det
     LaneVector& operator/=(const LaneVector& v) { return *this = *this / v; }
     LaneVector& operator&=(const LaneVector& v) { return *this = *this & v; }
     LaneVector& operator|=(const LaneVector& v) { return *this = *this | v; }
+    LaneVector& operator%=(const LaneVector& v) { return *this = *this % v; }
+    LaneVector& operator^=(const LaneVector& v) { return *this = *this ^ v; }
+    LaneVector& operator<<=(const LaneVector& v) { return *this = *this << v; }
+    LaneVector& operator>>=(const LaneVector& v) { return *this = *this >> v; }
 };
 
 // Plain vectors of GLM beside single values: none of them is a vector of lanes yet.

@@ -39,11 +39,15 @@ public:
     friend Int operator|(Int a, Int b) { return Int(a.value | b.value); }
     friend Int operator^(Int a, Int b) { return Int(a.value ^ b.value); }
     friend Int operator~(Int a) { return Int(~a.value); }
-    friend Int operator<<(Int a, int bits) { return Int(a.value << bits); }
-    friend Int operator>>(Int a, int bits) { return Int(a.value >> bits); }  // keeps the sign
+    // By a number of which the lowest five bits count, as of each pixel's own number below.
+    friend Int operator<<(Int a, int bits) { return Int(a.value << (bits & 31)); }
+    friend Int operator>>(Int a, int bits) { return Int(a.value >> (bits & 31)); }  // keeps the sign
     Int& operator+=(Int b) { return *this = *this + b; }
     Int& operator-=(Int b) { return *this = *this - b; }
     Int& operator*=(Int b) { return *this = *this * b; }
+    Int& operator&=(Int b) { return *this = *this & b; }
+    Int& operator|=(Int b) { return *this = *this | b; }
+    Int& operator^=(Int b) { return *this = *this ^ b; }
 
     friend Mask operator<(Int a, Int b) { return Mask(native::less(a.value, b.value)); }
     friend Mask operator>(Int a, Int b) { return b < a; }
@@ -68,6 +72,14 @@ inline Int operator>>(Int a, Int bits)
 {
     return Int(a.value >> (bits.value & 31));
 }
+inline Int& operator<<=(Int& a, Int bits)
+{
+    return a = a << bits;
+}
+inline Int& operator>>=(Int& a, Int bits)
+{
+    return a = a >> bits;
+}
 
 // Toward zero, one pixel after the other: processors divide no vectors of integers. Divided by 0: -1, and the rest is
 // all of it.
@@ -81,6 +93,14 @@ inline Int operator/(Int a, Int b)
 inline Int operator%(Int a, Int b)
 {
     return a - a / b * b;
+}
+inline Int& operator/=(Int& a, Int b)
+{
+    return a = a / b;
+}
+inline Int& operator%=(Int& a, Int b)
+{
+    return a = a % b;
 }
 
 inline Int select(Mask m, Int a, Int b)
@@ -101,7 +121,7 @@ inline Int clamp(Int a, Int low, Int high)
 }
 inline Int shiftRightLogical(Int a, int bits)
 {
-    return Int((native::IntVector)((native::UintVector)a.value >> static_cast<unsigned>(bits)));
+    return Int((native::IntVector)((native::UintVector)a.value >> (static_cast<unsigned>(bits) & 31)));
 }
 
 // The upper byte of each 16-bit half, as that half.
