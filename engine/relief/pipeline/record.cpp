@@ -112,8 +112,8 @@ Expected<Draw> makeDraw(const Programs& programs, const void* vertexProgram, con
         firstVertex = std::min<std::size_t>(*low, meshVertices);
         vertices = std::min<std::size_t>(std::size_t{*high} + 1, meshVertices) - firstVertex;
     }
-    constexpr std::size_t most = kClippedVertex - 1;
-    if (vertices * part.instances > most || used * part.instances > most) {
+    constexpr std::uint64_t most = kClippedVertex - 1;  // products of 64 bits wherever this runs
+    if (std::uint64_t{vertices} * part.instances > most || std::uint64_t{used} * part.instances > most) {
         return fail(name + std::to_string(part.instances) + " instances of " + std::to_string(vertices) +
                     " vertices are more than 2^31; draw them in parts");
     }
