@@ -2,6 +2,7 @@
 #include "relief/hlsl/vector.h"
 
 #include <initializer_list>
+#include <limits>
 #include <type_traits>
 
 #include <doctest/doctest.h>
@@ -178,12 +179,21 @@ TEST_CASE("vector: integers")
     CHECK(is(v < 0, {false, true, false}));
     CHECK(is(select(v < 0, 0, v), {1, 0, 12}));
     CHECK(is(asfloat(asint(kThree)), {1, 2, 4}));
-}
     int3 changing = v;
     CHECK(is(changing <<= int3(1, 2, 3), {2, -8, 96}));
     CHECK(is(changing %= 7, {2, -1, 5}));
     CHECK(is(changing ^= 3, {1, -4, 6}));
     CHECK(is(changing >>= 1, {0, -2, 3}));
+}
+
+TEST_CASE("vector: to integers as Direct3D converts, what does not fit becomes the nearest that does, and NaN 0")
+{
+    constexpr int kMost = std::numeric_limits<int>::max(), kLeast = std::numeric_limits<int>::min();
+    const float infinity = std::numeric_limits<float>::infinity();
+    CHECK(is(int3(float3(std::numeric_limits<float>::quiet_NaN(), 1e20f, -1e20f)), {0, kMost, kLeast}));
+    CHECK(is(int3(float3(-std::numeric_limits<float>::quiet_NaN(), infinity, -infinity)), {0, kMost, kLeast}));
+    CHECK(is(int3(float3(-2147483648.0f, 2147483648.0f, 2147483520.0f)), {kLeast, kMost, 2147483520}));
+    CHECK(is(int3(float3(-2147483520.0f, 0.99f, -0.99f)), {-2147483520, 0, 0}));
 }
 
 TEST_CASE("vector: kComponents and component() of floats and integers, single and in vectors")

@@ -31,6 +31,14 @@ Result each(Function function, const LaneVector<T, n>& v, const Others&... other
                       function(v.w, others.w...));
 }
 
+// Direct3D's ftoi: toward zero, to the nearest integer that there is, and 0 of NaN.
+inline Int saturatingToInt(Float v)
+{
+    constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
+    const Int inRange = select(isnan(v), Int(0), truncateToInt(v));
+    return select(v >= 0x1p31f, Int(~least), select(v <= -0x1p31f, Int(least), inRange));
+}
+
 // HLSL's cast of one value: toward zero, and 1 or 0 of a mask.
 template <class To, class From>
 To castTo(From v)
@@ -40,7 +48,7 @@ To castTo(From v)
     else if constexpr (std::is_same_v<From, Mask>)
         return select(v, To(1), To(0));
     else if constexpr (std::is_same_v<To, Int>)
-        return truncateToInt(v);
+        return saturatingToInt(v);
     else
         return To(v);
 }
