@@ -801,7 +801,8 @@ TEST_CASE("frame: the clear colour and depth, also when they are no numbers")
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     Framebuffer target = makeTarget(40, 40, Format::rgba32f, Store::keep);
     const Mesh mesh = meshOf({{{{0, 0}, {2560, 0}, {0, 2560}}}});  // some tiles touched, some not
-    for (const float depth : {0.25f, nan, infinity, -infinity}) {
+    for (const auto& [depth, cleared] :
+         {std::pair{0.25f, 0.25f}, {2.0f, 1.0f}, {-0.5f, 0.0f}, {nan, 0.0f}, {infinity, 1.0f}, {-infinity, 0.0f}}) {
         Frame frame(target, {1, 16});
         frame.clear({nan, infinity, -infinity, 0.5f}, depth);
         frame.setViewport(exactViewport(40, 40));
@@ -810,7 +811,10 @@ TEST_CASE("frame: the clear colour and depth, also when they are no numbers")
         const float largest = std::numeric_limits<float>::max();
         CHECK(pixel(target, 39, 39) == glm::vec4(0, largest, -largest, 0.5f));
         CHECK(pixel(target, 12, 12) == glm::vec4(0, largest, -largest, 0.5f));
-        if (depth == 0.25f) CHECK(target.depth()[39] == 0.25f);
+        CHECK(target.depth()[39 * 40 + 39] == cleared);
+        frame.clearDepth(depth);
+        checkInvariants(target, frame.run());
+        CHECK(target.depth()[39 * 40 + 39] == cleared);
     }
 }
 

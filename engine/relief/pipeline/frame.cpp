@@ -41,11 +41,11 @@ std::vector<std::vector<Piece>> cut(const std::vector<Draw>& draws, std::uint32_
     return chunks;
 }
 
-// As with what a program returns: NaN becomes something else, infinities the largest finite number.
-float finite(float value, float insteadOfNan)
+// As with what a program returns: NaN becomes 0, infinities the largest finite number.
+float finite(float value)
 {
     constexpr float largest = std::numeric_limits<float>::max();
-    return value != value ? insteadOfNan : std::clamp(value, -largest, largest);
+    return value != value ? 0.0f : std::clamp(value, -largest, largest);
 }
 
 Rectangle pixelsOf(const Viewport& v)
@@ -102,8 +102,8 @@ void Frame::clearColor(const glm::vec4& color)
 void Frame::clearColor(int target, const glm::vec4& color)
 {
     if (target < 0 || target >= kMaxColors) return;
-    storage->clear.color[static_cast<std::size_t>(target)] = {finite(color.x, 0.0f), finite(color.y, 0.0f),
-                                                              finite(color.z, 0.0f), finite(color.w, 0.0f)};
+    storage->clear.color[static_cast<std::size_t>(target)] = {finite(color.x), finite(color.y), finite(color.z),
+                                                              finite(color.w)};
 }
 
 void Frame::clearStencil(std::uint8_t stencil)
@@ -113,7 +113,7 @@ void Frame::clearStencil(std::uint8_t stencil)
 
 void Frame::clearDepth(float depth)
 {
-    storage->clear.depth = finite(depth, 1.0f);
+    storage->clear.depth = depth > 0.0f ? std::min(depth, 1.0f) : 0.0f;  // NaN is not above 0
 }
 
 void Frame::setViewport(const Viewport& viewport)

@@ -27,7 +27,7 @@ public:
 
     // The target's content before the first draw: all of it, with a stencil of 0; or the colours, all or the one of
     // SV_Target<target>, the depth, the stencil alone. What is not cleared is drawn onto as it is; what the target does
-    // not keep is 0 then, and its depth 1. Colour is linear.
+    // not keep is 0 then, and its depth 1. Colour is linear; depth is limited to 0 ... 1, and NaN to 0.
     void clear(const glm::vec4& color, float depth = 1.0f);
     void clearColor(const glm::vec4& color);
     void clearColor(int target, const glm::vec4& color);
