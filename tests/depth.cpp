@@ -195,6 +195,55 @@ TEST_CASE("depth: S-956 nothing outside of the rectangle that is drawn changes, 
     measured("pixels inside that did not", same, 0);
 }
 
+TEST_CASE(
+    "depth: a NaN that the owner left in a kept depth passes no test but always and notEqual, whatever is around it")
+{
+    Mesh large, small;
+    addTriangle(large, Corners{{{0, 0}, {400 * 256, 0}, {0, 400 * 256}}}, glm::vec4(1.0f), 0.5f);
+    for (int y = 0; y < 64; y += 2) {
+        for (int x = 0; x < 64; x += 2) {
+            const int left = x * 256, top = y * 256, right = left + 512, bottom = top + 512;
+            addTriangle(small, Corners{{{left, top}, {right, top}, {left, bottom}}}, glm::vec4(1.0f), 0.5f);
+            addTriangle(small, Corners{{{right, top}, {right, bottom}, {left, bottom}}}, glm::vec4(1.0f), 0.5f);
+        }
+    }
+    constexpr Compare kAll[] = {Compare::less,  Compare::lessEqual, Compare::greater, Compare::greaterEqual,
+                                Compare::equal, Compare::notEqual,  Compare::always};
+    const Viewport viewport = exactViewport(64, 64);
+    int wrong = 0;
+    for (const Compare first : kAll) {
+        for (const Compare second : kAll) {
+            for (const Mesh* mesh : {&large, &small}) {
+                for (const int tileSize : {16, 64}) {
+                    Framebuffer target = makeTarget(64, 64, Format::rgba32f, Store::keep);
+                    std::vector<float> depths(64 * 64);
+                    std::vector<int> counts(64 * 64);
+                    for (std::size_t i = 0; i < depths.size(); ++i) {
+                        depths[i] = i % 7 == 0 && i < 2000 ? kNan : i / 64 < 40 ? 0.75f : 0.25f;
+                        target.depth()[i] = depths[i];
+                        for (const Compare test : {first, second}) {
+                            if (!compareBy(test, Float(0.5f), Float(depths[i]))[0]) continue;
+                            depths[i] = 0.5f;
+                            ++counts[i];
+                        }
+                    }
+                    Frame frame(target, {1, tileSize});
+                    frame.clearColor(glm::vec4(0.0f));
+                    frame.setViewport(viewport);
+                    for (const Compare test : {first, second}) {
+                        const RenderState state = {test, true, true, Cull::none, Blend::additive};
+                        REQUIRE(frame.draw(*mesh, FromPixels(viewport), Value{}, state));
+                    }
+                    frame.run();
+                    wrong += wrongCounts(target, counts);
+                    wrong += std::memcmp(target.depth().data(), depths.data(), depths.size() * 4) != 0;
+                }
+            }
+        }
+    }
+    measured("pixels wrong", wrong, 0);
+}
+
 TEST_CASE("depth: S-959 NaN that the owner left in a target is gone wherever something is blended, and stays elsewhere")
 {
     constexpr RenderState kOver = {Compare::always, false, true, Cull::none, Blend::alpha};

@@ -90,7 +90,8 @@ inline bool isInFront(Compare compare, float nearest, float farthest, const Dept
 }
 
 // After pixels between the two depths were tested and written. `whole`: every pixel of the block took part. Minima and
-// maxima, not branches: nobody can foresee which triangle is nearer.
+// maxima, not branches: nobody can foresee which triangle is nearer. std::min and std::max give their first operand
+// where it is NaN.
 inline void updateBounds(Compare compare, float nearest, float farthest, bool whole, DepthBounds& stored)
 {
     const bool keepsNearer = compare == Compare::less || compare == Compare::lessEqual;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 
@@ -307,8 +308,10 @@ void Tile::setBounds()
 {
     for (int block = 0; block < blockCount; ++block) {
         const float* first = depth(sampleOf(block, 0));
-        const auto [low, high] = std::minmax_element(first, first + kLanes * pattern->count);
-        bounds(block) = {*low, *high};
+        const float* const last = first + kLanes * pattern->count;
+        const float* const nan = std::find_if(first, last, [](float z) { return std::isnan(z); });
+        const auto [low, high] = std::minmax_element(first, last);
+        bounds(block) = nan != last ? DepthBounds{*nan, *nan} : DepthBounds{*low, *high};
     }
 }
 
@@ -318,11 +321,15 @@ void Tile::refreshWholeBounds()
     static_assert(sizeof(DepthBounds) == 2 * sizeof(float));
     const float* numbers = &mBounds[0].nearest;
     Float low = Float::load(numbers), high = low;
+    Mask unknown = isnan(low);
     for (int i = kLanes; i < 2 * blockCount; i += kLanes) {
         const Float some = Float::load(numbers + i);
         low = min(low, some);
         high = max(high, some);
+        unknown |= isnan(some);
     }
+    if (any(unknown)) [[unlikely]]
+        low = high = quietNan();
     mWholeBounds = {low[0], high[1]};
     for (int lane = 2; lane < kLanes; lane += 2) {
         mWholeBounds.nearest = std::min(mWholeBounds.nearest, low[lane]);

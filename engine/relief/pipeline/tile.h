@@ -14,7 +14,8 @@
 namespace relief::inline RELIEF_WIDTH {
 
 // What a depth test can know about a block without looking at its pixels. Conservative: some pixel may be nearer to the
-// other bound, none lies outside.
+// other bound, none lies outside. Both are NaN where some pixel's depth may be, and stay so: no comparison with them
+// shows anything.
 struct DepthBounds
 {
     float nearest, farthest;
