@@ -167,6 +167,19 @@ TEST_CASE("target stored as a texture: it stays where it is, and keeps no words"
     CHECK(one.texture(0)->constant() == glm::vec4(0.5f, 0.0f, 0.0f, 1.0f));
 }
 
+TEST_CASE("target stored as a texture: tiles that are only copied are not counted as touched")
+{
+    Framebuffer target = *Framebuffer::create(64, 64, {{Format::rgba8, Store::texture}});
+    Frame frame(target, {1, 16});
+    const Mesh mesh = meshOf({{Point{2048, 2048}, Point{6144, 2560}, Point{2560, 6144}}});
+    const Viewport viewport = exactViewport(64, 64);
+    frame.setViewport(viewport);
+    REQUIRE(frame.draw(mesh, FromPixels(viewport), One{}, kPaint));
+    const Statistics statistics = frame.run();
+    CHECK(statistics.tiles == 16);
+    CHECK(statistics.tilesTouched == 4);
+}
+
 TEST_CASE("target as a texture: read while it is drawn into, it is what the last frame left")
 {
     struct ReadsTarget

@@ -362,8 +362,10 @@ void Frame::Storage::drawTile(const Part& part, int tileIndex, Worker& worker)
     } else {
         worker.tile->restore(pixels.x0, pixels.y0, before);
     }
-    if (!touched[tile]) ++worker.statistics.tilesTouched;
-    touched[tile] = 1;
+    if (isTouched && !touched[tile]) {
+        ++worker.statistics.tilesTouched;
+        touched[tile] = 1;
+    }
     shading.fetches = {};
     drawTriangles(part, tileIndex, worker);
     worker.statistics.fetches += shading.fetches;
