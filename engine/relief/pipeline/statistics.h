@@ -1,6 +1,5 @@
-// What a frame did, counted while it ran. Every count is the same for any number of threads; every one but
-// `blocksShaded` for any number of lanes; and every one but `tiles`, `tilesTouched` and `trianglesBinned` for any tile
-// size.
+// What a frame did, counted while it ran. Every count but `blocksShaded` is the same for any number of threads and of
+// lanes, and every one but that, `tiles`, `tilesTouched` and `trianglesBinned` for any tile size.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +28,7 @@ struct Statistics
 
     std::uint64_t tiles = 0;
     std::uint64_t tilesTouched = 0;     // tiles that a triangle was binned into
-    std::uint64_t blocksShaded = 0;     // runs of the fragment program
+    std::uint64_t blocksShaded = 0;     // runs of the fragment program, on a block or on one that several share
     std::uint64_t quadsShaded = 0;      // 2x2 pixels with at least one live pixel
     std::uint64_t pixelsShaded = 0;     // live pixels: lanes whose result counted
     std::uint64_t pixelsColorless = 0;  // of those: drawn without the fragment program, as no target keeps its colours

@@ -1,5 +1,5 @@
-// How often a frame sampled textures, and how. The numbers count lanes that a block shades (Shading::activeLanes), so
-// they are the same for every number of lanes.
+// How often a frame's fragment programs sampled textures, and how. The numbers count lanes that a block shades
+// (Shading::activeLanes), so they are the same for every number of lanes.
 #pragma once
 
 #include <cstdint>
