@@ -589,6 +589,8 @@ TEST_CASE("sinh, cosh and tanh: relative errors below 2e-7, 1.6e-7 and 2e-7, odd
     CHECK(same(tanh(Float(-kInfinity))[0], -1.0f));
     CHECK(same(sinh(Float(-kInfinity))[0], -kInfinity));
     CHECK(same(cosh(Float(-kInfinity))[0], kInfinity));
+    for (const float x : {88.72f, -88.72f}) CHECK(all(isfinite(cosh(Float(x))) & isfinite(sinh(Float(x)))));
+    for (const float x : {88.73f, -88.73f}) CHECK(all(isinf(cosh(Float(x))) & isinf(sinh(Float(x)))));
 }
 
 TEST_CASE("tan: error below 2e-7 (1 + tan^2)")

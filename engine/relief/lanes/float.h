@@ -81,8 +81,9 @@ inline Float asFloat(Int a)
     return Float((native::FloatVector)a.value);
 }
 
-// The NaN that functions give. An operation of the processor gives one of the other sign, and a compiler that works the
-// operation out beforehand may give either: a written one is the same in every build.
+// The NaN that exp, log, sin and their like give (math.h, trigonometry.h). An operation of the processor gives one of
+// the other sign, and a compiler that works the operation out beforehand may give either: a written one is the same in
+// every build.
 inline Float quietNan()
 {
     return asFloat(Int(0x7fc00000));
