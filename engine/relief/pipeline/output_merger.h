@@ -1,5 +1,5 @@
-// The output merger: depth test and blending of one block. What a draw's state asks for is a branch a block, always the
-// same way for a draw: next to nothing.
+// The output merger: depth bounds, stencil, blending and colours of one block; draw.cpp compares the depths. What a
+// draw's state asks for is a branch a block, always the same way for a draw: next to nothing.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // A draw's two programs as the pipeline sees them: tables made from their structs, and three functions that run them on
-// lanes: on vertices, on blocks of one triangle, and on a block that small triangles share. This is all that is
+// lanes: on vertices, on blocks of a batch of triangles, and on blocks that small triangles share. This is all that is
 // compiled with a program. Everything else of the pipeline is compiled once, in the engine.
 //
 //     VertexData  ->  vertex program  ->  Interpolators  ->  fragment program  ->  float4, or a struct of outputs
