@@ -3,8 +3,6 @@
 // shades holds one of these while it does.
 #pragma once
 
-#include <cstdint>
-
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #else

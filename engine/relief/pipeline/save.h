@@ -1,7 +1,9 @@
 // A target's pictures as files.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "relief/error.h"
 #include "relief/pipeline/framebuffer.h"

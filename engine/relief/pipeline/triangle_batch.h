@@ -2,7 +2,6 @@
 // each, worked out for all of them at once. A lane is a triangle here, not a pixel.
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "relief/lanes/float.h"

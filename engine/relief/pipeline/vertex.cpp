@@ -1,9 +1,10 @@
 #include "relief/pipeline/vertex.h"
 
 #include <algorithm>
+#include <limits>
+#include <string_view>
 
 #include "relief/pipeline/draw.h"
-#include "relief/pipeline/viewport_transform.h"
 
 namespace relief::inline RELIEF_WIDTH {
 
