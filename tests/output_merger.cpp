@@ -53,7 +53,7 @@ void forEachCompare(const Test& test)
 
 int code(float c)
 {
-    return toUnorm8(c)[0];
+    return codeOf(saturate(Float(c)))[0];
 }
 
 // The curve of IEC 61966-2-1, in double.

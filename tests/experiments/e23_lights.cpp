@@ -219,7 +219,7 @@ double errorOfRandomSums(int passes)
                 amounts[lane] = static_cast<float>(codesEach / 255.0 * uniform(random));
                 exact[lane] += static_cast<double>(amounts[lane]);
             }
-            codes = toUnorm8(unpackRgba8(codes).x + Float::load(amounts));
+            codes = codeOf(saturate(unpackRgba8(codes).x + Float::load(amounts)));
         }
         for (int lane = 0; lane < kLanes; ++lane) sum.add(codes[lane] - 255.0 * exact[lane]);
     }

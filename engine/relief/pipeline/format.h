@@ -9,14 +9,10 @@
 
 namespace relief::inline RELIEF_WIDTH {
 
-// FLOAT -> UNORM8: NaN to 0, clamp, scale, round half up (D3D 11.3, 3.2.3.6). The last two, of a number in 0 ... 1:
+// FLOAT -> UNORM8: NaN to 0 and clamp, which saturate() does, scale, round half up (D3D 11.3, 3.2.3.6). The last two:
 inline Int codeOf(Float saturated)
 {
     return Int(native::truncateToInt((saturated * 255.0f + 0.5f).value));
-}
-inline Int toUnorm8(Float c)
-{
-    return codeOf(saturate(c));
 }
 
 // Of numbers in 0 ... 1.
