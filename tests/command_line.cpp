@@ -200,6 +200,26 @@ TEST_CASE("command line: meshes that are none")
     }
 }
 
+TEST_CASE("command line: a mesh of any size is drawn as large as the samples' own")
+{
+    const TemporaryFolder folder;
+    const auto hashOf = [&folder](const std::string& size) {
+        std::string cube;
+        for (int i = 0; i < 8; ++i) {
+            cube += "v";
+            for (const int bit : {1, 2, 4}) cube += ((i & bit) != 0 ? " " : " -") + size;
+            cube += "\n";
+        }
+        cube += "f 3 4 2 1\nf 5 6 8 7\nf 1 2 6 5\nf 4 3 7 8\nf 2 4 8 6\nf 3 1 5 7\n";
+        write(folder.path / "cube.obj", cube);
+        return run(folder, "hash 1.21 --size 64x36 --mesh cube.obj").out;
+    };
+    const std::string usual = hashOf("1");
+    CHECK(usual.size() > 16);
+    for (const std::string size : {"1e20", "1e-25", "1e-37"}) CHECK(hashOf(size) == usual);
+    CHECK(hashOf("2.5e38").size() > 16);
+}
+
 TEST_CASE("command line: folders that cannot be written to")
 {
     const TemporaryFolder folder;

@@ -117,6 +117,32 @@ struct VertexProgram
     }
 };
 
+// Cut at eight planes, of which four may all but coincide with the others.
+struct CutInterpolators
+{
+    SV_POSITION position;
+    SV_ClipDistance<0, float4> near;
+    SV_ClipDistance<1, float4> far;
+    TEXCOORD<0, float2> uv;
+    noperspective<COLOR<0, float3>> light;
+};
+struct CutVertexProgram : VertexProgram
+{
+    Float apart;
+
+    CutInterpolators operator()(VertexData v) const
+    {
+        const Interpolators whole = VertexProgram::operator()(v);
+        CutInterpolators i;
+        i.position = whole.position;
+        i.near = float4(v.normal, v.uv.x);
+        i.far = i.near * apart;
+        i.uv = whole.uv;
+        i.light = whole.light;
+        return i;
+    }
+};
+
 // What materials are made of.
 struct Material
 {
@@ -186,6 +212,13 @@ struct Plain : Material
     float4 operator()(const Interpolators& i) const { return float4(float3(i.light) + color, i.uv.x); }
 };
 
+struct CutPlain
+{
+    float3 color;
+
+    float4 operator()(const CutInterpolators& i) const { return float4(float3(i.light) + color, i.uv.x); }
+};
+
 // --- a scene ---
 
 struct DrawCall
@@ -194,6 +227,7 @@ struct DrawCall
     VertexProgram vertex;
     Material material;
     int kind = 0;
+    float apart = 1.0f;
     Viewport viewport;
     Rectangle scissor;
     bool setsViewport = false, setsScissor = false, counterClockwise = false;
@@ -201,7 +235,7 @@ struct DrawCall
 
 struct Scene
 {
-    int width = 1, height = 1;
+    int width = 1, height = 1, samples = 1;
     Format format = Format::rgba8;
     Store depth = Store::keep;
     FrameOptions options, otherOptions;
@@ -316,7 +350,8 @@ DrawCall randomDraw(Numbers& number, const Scene& scene)
                   {randomVector(number, 1e3f), randomVector(number, 2.0f), Float(number(5.0f))},
                   {randomVector(number, 10.0f), source.chance(2) ? normalize(axis) : axis},
                   randomVector(number, 4.0f)};
-    d.kind = source.between(0, 7);
+    d.kind = source.between(0, 9);
+    d.apart = source.chance(4) ? number() : 1.0f + number(1e-6f);
     d.setsViewport = source.chance(3);
     d.viewport = {randomEdge(source, 0), randomEdge(source, 0), randomEdge(source, scene.width),
                   randomEdge(source, scene.height)};
@@ -334,7 +369,8 @@ Scene randomScene(Source source)
     Numbers number(source, extremes[source.between(0, 3)]);
     scene.width = source.between(1, 40);
     scene.height = source.between(1, 40);
-    scene.format = static_cast<Format>(source.between(0, 2));
+    scene.samples = source.chance(2) ? 1 << source.between(1, 3) : 1;
+    scene.format = static_cast<Format>(source.between(0, 4));
     scene.depth = source.chance(3) ? Store::discard : Store::keep;
     scene.options = {source.between(1, 3), 16 << source.between(0, 3)};
     scene.otherOptions = {source.between(1, 4), 16 << source.between(0, 3)};
@@ -357,6 +393,7 @@ void record(Frame& frame, const Scene& scene)
     constexpr RenderState kLines = {.cull = Cull::none, .primitive = Primitive::lines, .lineWidth = 2};
     constexpr RenderState kPaint = {
         .depthTest = Compare::always, .depthWrite = true, .depthClip = false, .cull = Cull::none};
+    constexpr RenderState kThinned = {.cull = Cull::none, .alphaToCoverage = true};
     if (scene.clears) frame.clear(scene.clearColor, scene.clearDepth);
     for (const DrawCall& d : scene.draws) {
         if (d.setsViewport) frame.setViewport(d.viewport);
@@ -384,6 +421,12 @@ void record(Frame& frame, const Scene& scene)
             case 6:
                 frame.draw(d.mesh, d.vertex, WithHoles{d.material}, kAdditive);
                 break;
+            case 7:
+                frame.draw(d.mesh, CutVertexProgram{d.vertex, Float(d.apart)}, CutPlain{d.material.color}, kPaint);
+                break;
+            case 8:
+                frame.draw(d.mesh, d.vertex, WithHoles{d.material}, kThinned);
+                break;
             default:
                 frame.draw(d.mesh, d.vertex, Plain{d.material}, kOver);
                 break;
@@ -397,30 +440,36 @@ void record(Frame& frame, const Scene& scene)
 void fill(Framebuffer& target)
 {
     std::uint32_t n = 1;
-    for (std::uint32_t& c : target.color8()) c = n = n * 1664525u + 1013904223u;
-    for (glm::vec4& c : target.color32f()) {
-        n = n * 1664525u + 1013904223u;
-        c = glm::vec4(static_cast<float>(n >> 8) * 0x1p-24f);
-    }
+    const auto next = [&n] { return n = n * 1664525u + 1013904223u; };
+    const auto number = [&next] { return static_cast<float>(next() >> 8) * 0x1p-24f; };
+    for (std::uint32_t& c : target.color8()) c = next();
+    for (auto& c : target.color16f()) c.fill(static_cast<std::uint16_t>(next() >> 16 & 0x3bffu));
+    for (float& c : target.colorR32f()) c = number();
+    for (glm::vec4& c : target.color32f()) c = glm::vec4(number());
     for (float& z : target.depth()) z = 1.0f;
 }
 
 bool allFinite(const Framebuffer& target)
 {
-    const auto finite = [](const glm::vec4& c) {
-        return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w);
+    const auto isFinite = [](float x) { return std::isfinite(x); };
+    const auto areFinite = [&](const glm::vec4& c) { return std::all_of(&c.x, &c.x + 4, isFinite); };
+    const auto halvesAreFinite = [](const auto& c) {
+        return std::all_of(c.begin(), c.end(), [](std::uint16_t half) { return (half & 0x7c00u) != 0x7c00u; });
     };
-    const auto colors = target.color32f();
-    const auto depths = target.depth();
-    return std::all_of(colors.begin(), colors.end(), finite) &&
-           std::all_of(depths.begin(), depths.end(), [](float z) { return std::isfinite(z); });
+    return std::ranges::all_of(target.color32f(), areFinite) &&
+           std::ranges::all_of(target.color16f(), halvesAreFinite) &&
+           std::ranges::all_of(target.colorR32f(), isFinite) && std::ranges::all_of(target.depth(), isFinite);
 }
 
 bool samePixel(const Framebuffer& a, const Framebuffer& b, std::size_t i)
 {
-    return (a.color8().empty() || a.color8()[i] == b.color8()[i]) &&
-           (a.color32f().empty() || std::memcmp(&a.color32f()[i], &b.color32f()[i], sizeof(glm::vec4)) == 0) &&
-           (a.depth().empty() || std::memcmp(&a.depth()[i], &b.depth()[i], sizeof(float)) == 0);
+    const std::size_t pixels = static_cast<std::size_t>(a.width()) * static_cast<std::size_t>(a.height());
+    for (int attachment = 0; attachment < static_cast<int>(a.attachments().size()); ++attachment) {
+        const std::span<const std::uint32_t> its = a.words(attachment), others = b.words(attachment);
+        const std::size_t words = its.size() / pixels;
+        if (!std::ranges::equal(its.subspan(i * words, words), others.subspan(i * words, words))) return false;
+    }
+    return true;
 }
 
 // Where no scissor lets anything through, every pixel is what it was.
@@ -464,7 +513,7 @@ bool sameCounts(const Statistics& a, const Statistics& b)
 Result draw(Source source)
 {
     const Scene scene = randomScene(source);
-    Framebuffer target = *Framebuffer::create(scene.width, scene.height, scene.format, scene.depth);
+    Framebuffer target = *Framebuffer::create(scene.width, scene.height, scene.format, scene.depth, scene.samples);
     fill(target);
     const Framebuffer before = target;
 
