@@ -16,7 +16,7 @@ namespace relief {
 // position.
 glm::mat4 lookAt(const glm::vec3& position, const glm::vec3& target, const glm::vec3& up = {0.0f, 1.0f, 0.0f});
 
-// The same for a camera that looks along `direction`, of any length but 0.
+// The same for a camera that looks along `direction`, whose length may be 1e-15 to 1e15.
 glm::mat4 lookAlong(const glm::vec3& position, const glm::vec3& direction, const glm::vec3& up = {0.0f, 1.0f, 0.0f});
 
 // The same for a camera that looks through a face of the cube around it, 0..5, turned as cube maps are
