@@ -17,7 +17,8 @@ namespace relief {
 struct GoldenOptions
 {
     std::string goldens;                       // the folder of the goldens: this program's, and nobody else's
-    std::string failures = "golden_failures";  // what failing checks leave, and a record of every check; likewise
+    std::string failures = "golden_failures";  // what failing checks leave, and a record of every check: likewise its
+                                               // own, since records of other checks are removed
     bool update = false;                       // the flag --update: see takeUpdateFlag()
 };
 
